@@ -1,0 +1,66 @@
+// The seam between the RTI's core, which does no I/O, and whatever carries its bytes.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace rink::rti {
+
+/// One conversation with one peer. Never used twice within a transport.
+using ConnectionId = std::uint32_t;
+
+using Bytes = std::span<const std::byte>;
+
+enum class CloseReason : std::uint8_t {
+  closed_by_peer,   ///< orderly or not, the peer is gone
+  closed_by_us,
+  queue_full,       ///< the peer did not read and its queue reached the limit
+  refused,          ///< nobody listens there
+  failed,           ///< any other error of the operating system
+};
+const char* to_string(CloseReason reason);
+
+/// Told what a transport found out while it was polled. Callbacks may send and close, but not poll.
+class TransportListener {
+ public:
+  virtual ~TransportListener() = default;
+  virtual void on_open(ConnectionId connection) = 0;
+  /// Bytes as the peer sent them, in order, cut anywhere. Valid during the call.
+  virtual void on_bytes(ConnectionId connection, Bytes bytes) = 0;
+  virtual void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) = 0;
+};
+
+/// Payload as counted here, and what the kernel says of the same connection where it can (`TCP_INFO`).
+struct TransportCounters {
+  std::uint64_t bytes_sent = 0, bytes_received = 0;      ///< handed to / taken from the operating system
+  std::uint64_t writes = 0;                              ///< calls of `send` that had bytes
+  std::uint64_t segments_sent = 0;                       ///< sum over writes of ceil(bytes / 1448): what Ethernet would carry
+  std::size_t queued_bytes = 0;                          ///< accepted by `send`, not yet taken by the operating system
+  std::optional<std::uint64_t> kernel_bytes_sent;        ///< acknowledged by the peer's kernel
+  std::optional<std::uint64_t> kernel_bytes_received;
+};
+
+/// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one thread owns it.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// Reports all that happened to `listener`; if nothing has, waits for the first event up to `longest_wait`.
+  virtual void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) = 0;
+
+  /// Sends the parts, one after the other, as one write. What the operating system does not take now is queued (a copy), up to the transport's
+  /// limit; beyond it the connection is closed with `queue_full`, reported by the next `poll`. Unknown connections are ignored.
+  virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
+
+  /// Sends what is queued if the peer takes it at once, then closes; `on_close` follows in the next `poll`.
+  virtual void close(ConnectionId connection) = 0;
+
+  /// Counters of an open connection, or the last ones of a closed one; all zero for one that never was.
+  virtual TransportCounters counters(ConnectionId connection) const = 0;
+};
+
+}  // namespace rink::rti
