@@ -1,0 +1,76 @@
+// Seeded key plans from a generator and distributions of our own, since the standard library's distributions differ between libraries.
+#include "loadgen/plan.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+
+namespace rink::loadgen {
+namespace {
+
+/// SplitMix64 (Steele, Lea and Flood 2014): passes BigCrush and any 64-bit number is a good seed.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : state_(mixed(seed) ^ mixed(~stream)) {}
+  std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
+  /// Uniform in (0, 1].
+  double uniform() { return static_cast<double>((next() >> 11) + 1) * 0x1p-53; }
+
+ private:
+  static std::uint64_t mixed(std::uint64_t bits) {
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    return bits ^ (bits >> 31);
+  }
+  std::uint64_t state_;
+};
+
+/// An exponential wait that is never below `shortest_s` and keeps the mean, in whole microseconds: a last-bit difference between two libraries'
+/// logarithms cannot reach the plan.
+std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
+  return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform())) * 1e6);
+}
+
+void plan_axis(std::vector<PlannedKey>& keys, std::uint64_t seed, std::uint32_t player, int axis, double duration_s, const PressHabits& habits) {
+  RandomStream random(seed, 2 * std::uint64_t{player} + static_cast<std::uint64_t>(axis));
+  const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
+  std::int64_t now_us = 0;
+  while (true) {
+    now_us += wait_us(random, habits.pause_mean_s, habits.shortest_s);
+    if (now_us >= end_us) return;
+    const auto key = static_cast<PlannedDirection>(2 * axis + static_cast<int>(random.next() >> 63));
+    keys.push_back({static_cast<double>(now_us) / 1e6, player, key, true});
+    now_us += wait_us(random, habits.press_mean_s, habits.shortest_s);
+    if (now_us >= end_us) return;
+    keys.push_back({static_cast<double>(now_us) / 1e6, player, key, false});
+  }
+}
+
+void sort_by_time(std::vector<PlannedKey>& keys) {
+  std::sort(keys.begin(), keys.end(), [](const PlannedKey& a, const PlannedKey& b) {
+    return std::tuple(a.time, a.player, a.key) < std::tuple(b.time, b.player, b.key);
+  });
+}
+
+}  // namespace
+
+std::vector<PlannedKey> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits) {
+  assert(habits.shortest_s > 0.0 && habits.press_mean_s > habits.shortest_s && habits.pause_mean_s > habits.shortest_s);
+  std::vector<PlannedKey> keys;
+  for (const int axis : {0, 1}) plan_axis(keys, seed, player, axis, duration_s, habits);
+  sort_by_time(keys);
+  return keys;
+}
+
+std::vector<PlannedKey> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits) {
+  std::vector<PlannedKey> keys;
+  for (std::uint32_t player = 0; player < players; ++player) {
+    const std::vector<PlannedKey> own = random_player_plan(seed, player, duration_s, habits);
+    keys.insert(keys.end(), own.begin(), own.end());
+  }
+  sort_by_time(keys);
+  return keys;
+}
+
+}  // namespace rink::loadgen
