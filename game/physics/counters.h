@@ -1,0 +1,35 @@
+// What a world did since it was made: the proof that what did not happen cost nothing.
+#pragma once
+
+#include <cstdint>
+
+namespace rink::physics {
+
+/// Every count starts at 0 and only grows. Counters are not part of a world's state: cell size and queue change them, never the motion.
+struct Counters {
+  std::uint64_t disc_impacts = 0;     ///< puck against puck
+  std::uint64_t post_impacts = 0;     ///< puck or bat against a post or the edge of a goal
+  std::uint64_t wall_impacts = 0;     ///< puck or bat against a wall, or a bat against the halfway line
+  std::uint64_t bat_impacts = 0;      ///< puck against bat
+  std::uint64_t bat_bat_impacts = 0;
+  std::uint64_t goals = 0;
+  std::uint64_t thrust_changes = 0;
+  std::uint64_t rests = 0;            ///< rest contacts that began
+  std::uint64_t releases = 0;         ///< rest contacts that ended by a pull or by sliding off an edge
+  std::uint64_t hops = 0;             ///< pressed clusters separated as one
+  std::uint64_t freezes = 0;          ///< pressed clusters found in static equilibrium
+  std::uint64_t crossings = 0;        ///< bookkeeping: a body changed its grid cell
+  std::uint64_t stale_events = 0;     ///< bookkeeping: an event whose partner had changed course
+  std::uint64_t predictions = 0;      ///< pairs of bodies looked at
+  std::uint64_t evaluations = 0;      ///< trajectories evaluated for an event
+  std::uint64_t bodies_touched = 0;   ///< last-event states rewritten
+
+  /// Physical events: all that rewrote the state of a body.
+  std::uint64_t events() const {
+    return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts + goals + thrust_changes + releases + hops + freezes;
+  }
+  /// Impacts of any kind.
+  std::uint64_t impacts() const { return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts; }
+};
+
+}  // namespace rink::physics

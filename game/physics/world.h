@@ -1,0 +1,82 @@
+// The exact rink: every body moves on a closed form between events, and every event happens at its exact time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "game/physics/body.h"
+#include "game/physics/counters.h"
+#include "game/physics/motion.h"
+
+namespace rink::physics {
+
+class Engine;
+
+/// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls give the same bits, whatever the cell size and however often
+/// advance() stops on the way. Method, proofs and limits: docs/physics.md.
+class World {
+ public:
+  explicit World(const WorldSpec& spec);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Adds a body at now(). The place must be free (asserted); ask is_free() first when in doubt.
+  BodyId add(const PuckSpec& spec);
+  BodyId add(const BatSpec& spec);
+  BodyId add(const PostSpec& spec);
+
+  /// Takes the body out of the world at now(), for good. What it held in place is released.
+  void remove(BodyId body);
+
+  /// From now() on `bat` accelerates by `acceleration` [m/s^2] less its drag. Handing in the present thrust changes nothing.
+  void set_thrust(BodyId bat, const Vector2& acceleration);
+
+  /// Puts a puck that is out of play back at now(). The place must be free (asserted).
+  void place(BodyId puck, const Vector2& position, const Vector2& velocity);
+
+  /// Processes every event up to and including `until` [s] (not before now()), or up to the first goal, which it returns at the goal's exact time. Where it stops never
+  /// changes the motion.
+  std::optional<Goal> advance(double until);
+
+  double now() const;                      ///< s
+  Vector2 position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
+  Vector2 velocity(BodyId body) const;     ///< at now() [m/s]
+
+  /// Closed form since the body's last event, valid until its next: what a distant replica needs to follow it exactly.
+  Motion motion(BodyId body) const;
+  /// Grows by one or more whenever motion() changes.
+  std::uint32_t motion_version(BodyId body) const;
+
+  std::uint32_t body_count() const;        ///< bodies ever added; valid ids are below
+  BodyKind kind(BodyId body) const;
+  double radius(BodyId body) const;        ///< of a puck or post [m]; 0 for a bat
+  Vector2 half_extent(BodyId body) const;  ///< of the body's bounding box [m]
+  double mass(BodyId body) const;          ///< kg; infinity for a post
+  MaterialId material(BodyId body) const;
+  Vector2 thrust(BodyId body) const;       ///< as set, whether or not the body yields to it [m/s^2]
+  bool is_in_play(BodyId body) const;      ///< false once it has scored or was removed
+  bool is_removed(BodyId body) const;
+  bool is_resting(BodyId body) const;      ///< at rest, and will be until something else acts on it
+  bool is_held(BodyId body) const;         ///< in rest contact along some axis, or part of a jam in equilibrium
+
+  /// Whether a disc (or rectangle) centred there would lie inside the field and overlap no body at now(); touching is free.
+  bool is_free(const Vector2& centre, double radius) const;
+  bool is_free(const Vector2& centre, const Vector2& half_extent) const;
+
+  const WorldSpec& spec() const;
+  const Counters& counters() const;
+  double kinetic_energy() const;           ///< of the bodies in play at now() [J]
+  Vector2 momentum() const;                ///< likewise [kg m/s]
+  /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none overlap. Looks at every body.
+  double max_overlap() const;
+
+  /// FNV-1a of the last-event states of all bodies in order of their ids. Equal for equal histories, whatever the cell size and wherever advance() stopped.
+  std::uint64_t hash() const;
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace rink::physics
