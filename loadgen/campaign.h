@@ -1,0 +1,29 @@
+// Runs all cells of an experiment in order and keeps what was measured, whatever ends it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "loadgen/cell_runner.h"
+#include "loadgen/progress.h"
+#include "loadgen/results.h"
+
+namespace rink::loadgen {
+
+/// Writes the key log of `cell`'s game to `file`. Throws ExperimentError if the scene cannot serve the cell, OutputError if the file cannot be written.
+using KeyLogWriter = std::function<void(const Cell& cell, const std::filesystem::path& file)>;
+
+/// How a campaign went.
+struct Outcome {
+  std::vector<RunRecord> runs;
+  bool was_interrupted = false;
+  std::string output_failure;  ///< why results could not be written, empty if they could; nothing runs after that
+};
+
+/// Runs every cell, appending each record to `results`. The key log of a game is written once, to `results`/keys, and shared by all its cells.
+/// Throws ExperimentError (before the first cell runs if at all possible) and std::system_error (a program cannot be started).
+Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
+                     Progress& progress);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,181 @@
+// Starts the server, then the bots, waits for both within limits and reads their reports.
+#include "loadgen/cell_runner.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "loadgen/process.h"
+
+namespace rink::loadgen {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds look_interval{20};
+constexpr double survivor_limit_s = 3.0;  // how long one process may go on after the other has failed
+
+std::string decimal(double number) {
+  std::ostringstream text;
+  text.precision(17);
+  text << number;
+  return text.str();
+}
+
+Clock::time_point after(double seconds) { return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
+
+/// A run that cannot go on; `why` becomes the record's reason.
+struct Failure {
+  std::string why;
+};
+struct Interrupted {};
+
+std::string with_last_words(std::string what, const Process& process) {
+  const std::string words = process.last_words();
+  return words.empty() ? what : what + ", saying: " + words;
+}
+
+nlohmann::json report_at(const std::filesystem::path& path, const std::string& who) {
+  std::ifstream stream(path);
+  if (!stream) throw Failure{who + " wrote no report"};
+  nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
+  if (report.is_discarded()) throw Failure{who + " wrote a report that is not JSON"};
+  return report;
+}
+
+/// One cell while it runs.
+class CellRun {
+ public:
+  CellRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log)
+      : settings_(settings), experiment_(experiment), cell_(cell), key_log_(key_log),
+        server_report_(settings.directory / (name_of(cell) + ".server.json")), bots_report_(settings.directory / (name_of(cell) + ".bots.json")) {}
+
+  void run(RunRecord& record) {
+    std::error_code ignored;
+    std::filesystem::remove(server_report_, ignored);
+    std::filesystem::remove(bots_report_, ignored);
+    Process server(settings_.serve, serve_arguments(experiment_, cell_, key_log_, server_report_), settings_.server_processors);
+    const std::string address = address_of(server);
+    Process bots(settings_.bots, bots_arguments(experiment_, cell_, key_log_, address, bots_report_), settings_.bots_processors);
+    await(server, bots);
+    record.server_cpu_s = server.ending()->cpu_s;
+    record.bots_cpu_s = bots.ending()->cpu_s;
+    judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
+  }
+
+ private:
+  void heed_interrupt() const {
+    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
+  }
+
+  std::string address_of(Process& server) {
+    const auto deadline = after(settings_.listen_limit_s);
+    while (true) {
+      heed_interrupt();
+      server.attend(look_interval);
+      if (const auto address = server.line_after("listening on ")) return *address;
+      if (server.ending()) throw Failure{with_last_words("the server " + server.ending()->text() + " before it listened", server)};
+      if (Clock::now() > deadline) {
+        server.stop(settings_.stop_grace);
+        throw Failure{with_last_words("the server did not listen within " + decimal(settings_.listen_limit_s) + " s", server)};
+      }
+    }
+  }
+
+  /// Returns when both have ended well.
+  void await(Process& server, Process& bots) {
+    const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
+    auto deadline = after(limit_s);
+    bool has_failed = false;
+    while (!server.ending() || !bots.ending()) {
+      heed_interrupt();
+      (server.ending() ? bots : server).attend(look_interval);
+      if (!server.ending()) bots.attend(milliseconds(0));
+      const bool fails_now = (server.ending() && !server.ending()->is_success()) || (bots.ending() && !bots.ending()->is_success());
+      if (fails_now && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
+      has_failed = has_failed || fails_now;
+      if (Clock::now() > deadline) break;
+    }
+    // Who failed by itself is named before who was merely still waiting for it.
+    std::string why;
+    const auto add = [&why](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
+    const auto name_failure = [&](const char* who, const Process& process) {
+      if (process.ending() && !process.ending()->is_success()) add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
+    };
+    name_failure("the server", server);
+    name_failure("the bots", bots);
+    const auto end_late = [&](const char* who, Process& process) {
+      if (process.ending()) return;
+      process.stop(settings_.stop_grace);
+      if (!has_failed) add(with_last_words(std::string(who) + " had not ended after " + decimal(limit_s) + " s", process));
+    };
+    end_late("the server", server);
+    end_late("the bots", bots);
+    if (!why.empty()) throw Failure{why};
+  }
+
+  const RunnerSettings& settings_;
+  const Experiment& experiment_;
+  const Cell& cell_;
+  const std::filesystem::path& key_log_;
+  std::filesystem::path server_report_, bots_report_;
+};
+
+}  // namespace
+
+void pin_apart(RunnerSettings& settings, const std::vector<int>& processors) {
+  settings.server_processors.clear();
+  settings.bots_processors.clear();
+  if (processors.size() < 2) return;
+  settings.server_processors = {processors.front()};
+  settings.bots_processors.assign(processors.begin() + 1, processors.end());
+}
+
+std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log,
+                                         const std::filesystem::path& report) {
+  std::vector<std::string> arguments{"--scene", experiment.scene};
+  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
+  add("--seed", std::to_string(cell.seed));
+  add("--address", "127.0.0.1");
+  add("--port", "0");
+  add("--scheme", cell.scheme);
+  if (experiment.cell_size > 0.0) add("--cell-size", decimal(experiment.cell_size));
+  add("--policy", cell.policy);
+  add("--rate", decimal(experiment.tick_rate_hz));
+  add("--duration", decimal(experiment.duration_s));
+  add("--warm-up", decimal(experiment.warm_up_s));
+  add("--clients", std::to_string(cell.clients));
+  if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
+  add("--report", report.string());
+  return arguments;
+}
+
+std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& address,
+                                        const std::filesystem::path& report) {
+  std::vector<std::string> arguments{"--connect", address};
+  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  add("--count", std::to_string(cell.clients));
+  add("--plan", key_log.string());
+  add("--view", decimal(experiment.view_fraction));
+  add("--duration", decimal(experiment.duration_s));
+  add("--warm-up", decimal(experiment.warm_up_s));
+  add("--report", report.string());
+  return arguments;
+}
+
+std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
+  RunRecord record = record_for(experiment, cell);
+  try {
+    CellRun(settings, experiment, cell, key_log).run(record);
+  } catch (const Failure& failure) {
+    record.valid = false;
+    record.why_invalid = failure.why;
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+  return record;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,60 @@
+// A child process that cannot outlive its parent, whose output is read while it runs.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rink::loadgen {
+
+/// How a process ended.
+struct Ending {
+  int exit_status = -1;  ///< -1 if a signal ended it
+  int signal = 0;        ///< 0 if it exited by itself
+  double cpu_s = 0.0;    ///< processor time it used, user and system [s]
+  bool is_success() const { return exit_status == 0; }
+  /// E.g. `ended with status 3` or `was ended by signal 11 (Segmentation fault)`.
+  std::string text() const;
+};
+
+/// A running program in a process group of its own, so that a Ctrl-C at the terminal reaches only the parent, which then decides. It is killed when this
+/// object goes, and by the kernel (PR_SET_PDEATHSIG) when the thread that started it dies, even by kill -9.
+class Process {
+ public:
+  /// Starts `executable` on the given processors (all that are allowed if empty). Throws std::system_error if it cannot be started.
+  Process(const std::filesystem::path& executable, const std::vector<std::string>& arguments, const std::vector<int>& processors);
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process();
+
+  /// Reads what the process wrote and sees whether it ended, waiting up to `limit` for one of the two.
+  void attend(std::chrono::milliseconds limit);
+  /// Absent while it runs.
+  const std::optional<Ending>& ending() const { return ending_; }
+  /// The rest of the first line of its standard output that starts with `beginning`, once that line is complete.
+  std::optional<std::string> line_after(const std::string& beginning) const;
+  /// The last lines of its standard error, at most 2 kB, without a final newline.
+  std::string last_words() const;
+
+  /// Asks the whole group to end (SIGTERM), waits up to `grace`, then kills it. Returns when the process is gone.
+  void stop(std::chrono::milliseconds grace);
+
+ private:
+  void read_into(int& descriptor, std::string& text, std::size_t kept_max);
+  void reap();
+  void signal_group(int signal) const;
+
+  pid_t id_ = -1;
+  int output_ = -1, errors_ = -1;
+  std::string output_text_, errors_text_;
+  std::optional<Ending> ending_;
+};
+
+/// The processors that this process may run on, ascending.
+std::vector<int> allowed_processors();
+
+}  // namespace rink::loadgen

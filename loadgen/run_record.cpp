@@ -1,0 +1,233 @@
+// Turns the two processes' reports into rates per client, and says why a run does not count.
+#include "loadgen/run_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace rink::loadgen {
+namespace {
+
+constexpr double count_mismatch_max = 0.01;
+
+/// A report, which another process wrote: whatever is missing or of another type is noted once and reads as absent.
+class ReportReader {
+ public:
+  ReportReader(const nlohmann::json& report, std::string who, std::vector<std::string>& complaints)
+      : report_(report), who_(std::move(who)), complaints_(complaints) {}
+
+  std::optional<double> number(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_number() && std::isfinite(value->get<double>()) && value->get<double>() >= 0.0) return value->get<double>();
+    return complain(key, "a number that is not negative");
+  }
+  std::optional<std::uint64_t> count(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_number_integer() && (value->is_number_unsigned() || value->get<std::int64_t>() >= 0)) return value->get<std::uint64_t>();
+    complain(key, "a count");
+    return std::nullopt;
+  }
+  std::string text(const char* key) {
+    const nlohmann::json* value = find(key);
+    if (value && value->is_string()) return value->get<std::string>();
+    complain(key, "a text");
+    return {};
+  }
+  Percentiles percentiles(const char* key) {
+    const nlohmann::json* value = find(key);
+    const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
+    if (histogram) return histogram->percentiles_ms();
+    complain(key, "a histogram");
+    return {};
+  }
+  void verdict() {
+    const nlohmann::json* value = find("valid");
+    if (!value || !value->is_boolean()) {
+      complain("valid", "true or false");
+    } else if (!value->get<bool>()) {
+      complaints_.push_back("the " + who_ + ": " + text("why_invalid"));
+    }
+  }
+
+ private:
+  const nlohmann::json* find(const char* key) const {
+    if (!report_.is_object()) return nullptr;
+    const auto found = report_.find(key);
+    return found == report_.end() ? nullptr : &*found;
+  }
+  std::nullopt_t complain(const char* key, const std::string& expected) {
+    complaints_.push_back("the report of the " + who_ + " has no " + key + " that is " + expected);
+    return std::nullopt;
+  }
+
+  const nlohmann::json& report_;
+  std::string who_;
+  std::vector<std::string>& complaints_;
+};
+
+std::string shown(double number) {
+  std::string text = std::to_string(number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+void compare_counts(const std::string& what, std::optional<double> payload, std::optional<double> kernel, std::vector<std::string>& complaints) {
+  if (!payload || !kernel || std::abs(*payload - *kernel) <= count_mismatch_max * *kernel) return;
+  complaints.push_back(what + ": " + shown(*payload) + " B counted, " + shown(*kernel) + " B by the kernel, more than 1 % apart");
+}
+
+void expect_none(const std::string& what, std::optional<std::uint64_t> count, std::vector<std::string>& complaints) {
+  if (count.value_or(0) > 0) complaints.push_back(std::to_string(*count) + " " + what);
+}
+
+void expect_equal(const std::string& what, std::optional<double> value, double expected, std::vector<std::string>& complaints) {
+  if (value && *value != expected) complaints.push_back(what + " is " + shown(*value) + " instead of " + shown(expected));
+}
+
+std::optional<double> per(std::optional<double> amount, std::optional<double> divisor) {
+  if (!amount || !divisor || *divisor <= 0.0) return std::nullopt;
+  return *amount / *divisor;
+}
+
+std::optional<double> with_headers(std::optional<double> bytes, std::optional<double> segments) {
+  if (!bytes || !segments) return std::nullopt;
+  return *bytes + segment_header_bytes * *segments;
+}
+
+void fill_from_server(RunRecord& record, ReportReader& server) {
+  record.entities = server.count("entities");
+  record.ticks = server.count("ticks");
+  record.ticks_on_time_fraction = server.number("ticks_on_time_fraction");
+  record.physics_us_per_tick = server.number("physics_us_per_tick");
+  record.filter_us_per_tick = server.number("filter_us_per_tick");
+  record.send_us_per_tick = server.number("send_us_per_tick");
+  record.server_rss_bytes = server.count("server_rss_bytes");
+  record.state_hash = server.text("state_hash");
+  record.measured_s = server.number("measured_s");
+  record.messages_per_s = per(server.number("messages_sent"), record.measured_s);
+  record.writes_per_s = per(server.number("writes_sent"), record.measured_s);
+}
+
+void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
+  const double clients = record.cell.clients;
+  const auto down = server.number("bytes_sent"), up = server.number("bytes_received");
+  const auto segments_down = server.number("segments_sent"), segments_up = bots.number("segments_sent");
+  const auto bots_measured_s = bots.number("measured_s");
+  const auto wire_down_per_s = per(with_headers(down, segments_down), record.measured_s);
+  const auto wire_up_per_s = per(with_headers(bots.number("bytes_sent"), segments_up), bots_measured_s);
+  record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
+  record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
+  if (wire_down_per_s && wire_up_per_s) record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
+  const auto segments_down_per_s = per(segments_down, record.measured_s), segments_up_per_s = per(segments_up, bots_measured_s);
+  if (segments_down_per_s && segments_up_per_s) record.segments_per_s = *segments_down_per_s + *segments_up_per_s;
+}
+
+void fill_from_bots(RunRecord& record, ReportReader& bots) {
+  record.update_age_ms = bots.percentiles("update_age_ms");
+  record.key_to_effect_ms = bots.percentiles("key_to_effect_ms");
+  record.keys_due = bots.count("keys_due");
+  record.keys_sent = bots.count("keys_sent");
+  record.late_sends_fraction = bots.number("late_sends_fraction");
+}
+
+void check(const RunRecord& record, ReportReader& server, ReportReader& bots, std::vector<std::string>& complaints) {
+  server.verdict();
+  bots.verdict();
+  expect_equal("the server's clients", server.number("clients"), record.cell.clients, complaints);
+  expect_equal("the bots' clients", bots.number("clients"), record.cell.clients, complaints);
+  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"), record.tick_rate_hz, complaints);
+  expect_none("clients lost by the server", server.count("lost_federates"), complaints);
+  expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
+  expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
+  compare_counts("sent by the server", server.number("total_bytes_sent"), server.number("kernel_bytes_sent"), complaints);
+  compare_counts("received by the server", server.number("total_bytes_received"), server.number("kernel_bytes_received"), complaints);
+  compare_counts("sent by the bots", bots.number("total_bytes_sent"), bots.number("kernel_bytes_sent"), complaints);
+  compare_counts("received by the bots", bots.number("total_bytes_received"), bots.number("kernel_bytes_received"), complaints);
+  if (record.keys_due && record.keys_sent && *record.keys_sent < *record.keys_due) {
+    complaints.push_back("only " + std::to_string(*record.keys_sent) + " of " + std::to_string(*record.keys_due) + " due keys were sent");
+  }
+  if (record.measured_s == 0.0) complaints.push_back("nothing was measured");
+}
+
+template <class Value>
+nlohmann::ordered_json or_null(const std::optional<Value>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+RunRecord record_for(const Experiment& experiment, const Cell& cell) {
+  RunRecord record;
+  record.cell = cell;
+  record.tick_rate_hz = experiment.tick_rate_hz;
+  record.scene = experiment.scene;
+  record.population = experiment.population == Population::fixed ? "fixed" : "per_client";
+  record.keys = experiment.keys == KeySource::replay ? "replay" : "live";
+  record.view_fraction = experiment.view_fraction;
+  record.cell_size = experiment.cell_size;
+  record.duration_s = experiment.duration_s;
+  record.warm_up_s = experiment.warm_up_s;
+  return record;
+}
+
+void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report) {
+  std::vector<std::string> complaints;
+  ReportReader server(server_report, "server", complaints), bots(bots_report, "bots", complaints);
+  fill_from_server(record, server);
+  fill_bytes(record, server, bots);
+  fill_from_bots(record, bots);
+  check(record, server, bots, complaints);
+  std::vector<std::string> once;
+  for (const std::string& complaint : complaints) {
+    if (std::find(once.begin(), once.end(), complaint) == once.end()) once.push_back(complaint);
+  }
+  record.valid = once.empty();
+  record.why_invalid.clear();
+  for (const std::string& complaint : once) record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + complaint;
+}
+
+nlohmann::ordered_json to_json(const RunRecord& record) {
+  nlohmann::ordered_json line;
+  line["mode"] = record.cell.mode;
+  line["scheme"] = record.cell.scheme;
+  line["policy"] = record.cell.policy;
+  line["clients"] = record.cell.clients;
+  line["entities"] = or_null(record.entities);
+  line["seed"] = record.cell.seed;
+  line["tick_rate_hz"] = record.tick_rate_hz;
+  line["ticks"] = or_null(record.ticks);
+  line["ticks_on_time_fraction"] = or_null(record.ticks_on_time_fraction);
+  line["down_bytes_per_client_per_s"] = or_null(record.down_bytes_per_client_per_s);
+  line["up_bytes_per_client_per_s"] = or_null(record.up_bytes_per_client_per_s);
+  line["wire_bytes_per_client_per_s"] = or_null(record.wire_bytes_per_client_per_s);
+  line["messages_per_s"] = or_null(record.messages_per_s);
+  line["update_age_ms"] = percentiles_json(record.update_age_ms);
+  line["key_to_effect_ms"] = percentiles_json(record.key_to_effect_ms);
+  line["physics_us_per_tick"] = or_null(record.physics_us_per_tick);
+  line["filter_us_per_tick"] = or_null(record.filter_us_per_tick);
+  line["send_us_per_tick"] = or_null(record.send_us_per_tick);
+  line["server_rss_bytes"] = or_null(record.server_rss_bytes);
+  line["state_hash"] = record.state_hash.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(record.state_hash);
+  line["valid"] = record.valid;
+  line["why_invalid"] = record.why_invalid;
+  line["scene"] = record.scene;
+  line["population"] = record.population;
+  line["keys"] = record.keys;
+  line["view_fraction"] = record.view_fraction;
+  line["cell_size"] = record.cell_size;
+  line["duration_s"] = record.duration_s;
+  line["warm_up_s"] = record.warm_up_s;
+  line["measured_s"] = or_null(record.measured_s);
+  line["segments_per_s"] = or_null(record.segments_per_s);
+  line["writes_per_s"] = or_null(record.writes_per_s);
+  line["keys_due"] = or_null(record.keys_due);
+  line["keys_sent"] = or_null(record.keys_sent);
+  line["late_sends_fraction"] = or_null(record.late_sends_fraction);
+  line["server_cpu_s"] = or_null(record.server_cpu_s);
+  line["bots_cpu_s"] = or_null(record.bots_cpu_s);
+  return line;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,52 @@
+// What one run of a server and its bots showed: a line of runs.jsonl.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "loadgen/experiment.h"
+#include "loadgen/histogram.h"
+
+namespace rink::loadgen {
+
+/// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323); acknowledgements are not counted.
+inline constexpr double segment_header_bytes = 66.0;
+
+/// The figures of one cell. docs/metrics.md defines each; values that were not measured are absent and null in JSON.
+struct RunRecord {
+  Cell cell;
+  std::optional<std::uint64_t> entities;
+  double tick_rate_hz = 0.0;
+  std::optional<std::uint64_t> ticks;
+  std::optional<double> ticks_on_time_fraction;
+  std::optional<double> down_bytes_per_client_per_s, up_bytes_per_client_per_s, wire_bytes_per_client_per_s;
+  std::optional<double> messages_per_s;
+  Percentiles update_age_ms, key_to_effect_ms;
+  std::optional<double> physics_us_per_tick, filter_us_per_tick, send_us_per_tick;
+  std::optional<std::uint64_t> server_rss_bytes;
+  std::string state_hash;  ///< 16 hexadecimal digits, or empty if unknown
+  bool valid = false;
+  std::string why_invalid;  ///< empty if valid
+
+  std::string scene, population, keys;
+  double view_fraction = 0.0, cell_size = 0.0, duration_s = 0.0, warm_up_s = 0.0;
+  std::optional<double> measured_s;
+  std::optional<double> segments_per_s, writes_per_s;
+  std::optional<std::uint64_t> keys_due, keys_sent;
+  std::optional<double> late_sends_fraction;
+  std::optional<double> server_cpu_s, bots_cpu_s;  ///< processor time of each process from start to end
+};
+
+/// A record of `cell` without figures yet; not valid.
+RunRecord record_for(const Experiment& experiment, const Cell& cell);
+
+/// Fills `record` from the reports of the server and the bots and judges it. It is valid if both reports are complete and say so themselves, both counted
+/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %.
+void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report);
+
+/// One line of runs.jsonl, keys in the documented order.
+nlohmann::ordered_json to_json(const RunRecord& record);
+
+}  // namespace rink::loadgen

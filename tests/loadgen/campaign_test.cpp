@@ -1,0 +1,208 @@
+// Cells run with shell scripts in place of the server and the bots: healthy ones, and ones that hang, crash, are deaf to SIGTERM or write nonsense.
+#include "loadgen/campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "canned_reports.h"
+#include "loadgen/process.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string find_report = "while [ $# -gt 0 ]; do [ \"$1\" = --report ] && report=$2; shift; done\n";
+
+class CampaignTest : public testing::Test {
+ protected:
+  CampaignTest() {
+    std::string pattern = testing::TempDir() + "rink-campaign-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    settings_.serve = folder_ / "serve";
+    settings_.bots = folder_ / "bots";
+    settings_.directory = folder_;
+    settings_.listen_limit_s = 0.5;
+    settings_.join_limit_s = 0.8;
+    settings_.stop_grace = std::chrono::milliseconds(100);
+    healthy_server();
+    healthy_bots();
+  }
+  ~CampaignTest() override { std::filesystem::remove_all(folder_); }
+
+  void script(const std::filesystem::path& path, const std::string& body) {
+    std::ofstream(path) << "#!/bin/sh\n" << body;
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  }
+  void server(const std::string& body) { script(settings_.serve, body); }
+  void bots(const std::string& body) { script(settings_.bots, body); }
+  void healthy_server() {
+    server(find_report + "echo listening on 127.0.0.1:4711\nsleep 0.05\ncat >\"$report\" <<'R'\n" + canned_server_report(cell_).dump() + "\nR\n");
+  }
+  void healthy_bots() { bots(find_report + "cat >\"$report\" <<'R'\n" + canned_bots_report(cell_).dump() + "\nR\n"); }
+
+  RunRecord run() {
+    const auto record = run_cell(settings_, experiment_, cell_, folder_ / "keys");
+    EXPECT_TRUE(record);
+    return record.value_or(RunRecord{});
+  }
+
+  std::filesystem::path folder_;
+  RunnerSettings settings_;
+  Experiment experiment_ = small_experiment();
+  Cell cell_{"client-server", "none", "periodic", 10, 1};
+};
+
+TEST_F(CampaignTest, AHealthyCellIsValid) {
+  const RunRecord record = run();
+  EXPECT_TRUE(record.valid) << record.why_invalid;
+  EXPECT_TRUE(record.server_cpu_s && record.bots_cpu_s);
+  EXPECT_EQ(record.entities, 1100u);
+}
+
+TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
+  server("echo \"$@\" >\"" + (folder_ / "serve.arguments").string() + "\"\n" + find_report + "echo listening on 127.0.0.1:4711\n");
+  bots("echo \"$@\" >\"" + (folder_ / "bots.arguments").string() + "\"\n");
+  experiment_.population = Population::per_client;
+  experiment_.cell_size = 2.5;
+  run();
+  std::ostringstream serve_text, bots_text;
+  serve_text << std::ifstream(folder_ / "serve.arguments").rdbuf();
+  bots_text << std::ifstream(folder_ / "bots.arguments").rdbuf();
+  EXPECT_THAT(serve_text.str(), HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
+                                          "--rate 30 --duration 0.2"));
+  EXPECT_THAT(bots_text.str(), AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --plan "), HasSubstr("--view 0.05")));
+}
+
+TEST_F(CampaignTest, AServerThatEndsBeforeItListensIsQuoted) {
+  server("echo 'scene nowhere.toml: no such file' >&2\nexit 2\n");
+  EXPECT_THAT(run().why_invalid, AllOf(HasSubstr("ended with status 2 before it listened"), HasSubstr("nowhere.toml")));
+}
+
+TEST_F(CampaignTest, AServerThatNeverListensIsStopped) {
+  server("sleep 60\n");
+  EXPECT_THAT(run().why_invalid, HasSubstr("did not listen within 0.5 s"));
+}
+
+TEST_F(CampaignTest, ACrashIsNamedBySignal) {
+  server("echo listening on 127.0.0.1:4711\nsleep 0.05\nkill -SEGV $$\n");
+  EXPECT_THAT(run().why_invalid, HasSubstr("the server was ended by signal 11"));
+}
+
+TEST_F(CampaignTest, BotsThatHangAndAreDeafToSigtermAreKilled) {
+  bots("trap '' TERM\necho $$ >\"" + (folder_ / "pid").string() + "\"\nwhile :; do sleep 0.05; done\n");
+  EXPECT_THAT(run().why_invalid, HasSubstr("the bots had not ended after 1 s"));
+  pid_t id = 0;
+  std::ifstream(folder_ / "pid") >> id;
+  ASSERT_GT(id, 0);
+  EXPECT_EQ(kill(id, 0), -1) << "still there";
+}
+
+TEST_F(CampaignTest, FailedBotsAreQuotedAndNotTheServerThatWaitedForThem) {
+  settings_.join_limit_s = 0.3;
+  server("echo listening on 127.0.0.1:4711\nsleep 60\n");
+  bots("echo 'no route' >&2\nexit 5\n");
+  EXPECT_EQ(run().why_invalid, "the bots ended with status 5, saying: no route");
+}
+
+TEST_F(CampaignTest, AMissingOrBrokenReportIsNamed) {
+  bots("exit 0\n");
+  EXPECT_EQ(run().why_invalid, "the bots wrote no report");
+  bots(find_report + "echo '{' >\"$report\"\n");
+  EXPECT_EQ(run().why_invalid, "the bots wrote a report that is not JSON");
+}
+
+TEST_F(CampaignTest, AProgramThatIsNotThereCannotBeStarted) {
+  settings_.serve = folder_ / "nothing";
+  EXPECT_THROW(run_cell(settings_, experiment_, cell_, "keys"), std::system_error);
+}
+
+TEST_F(CampaignTest, AllCellsAreRunInOrderAndAppendedToTheRuns) {
+  experiment_.schemes = {"none", "region"};
+  ResultsDirectory results(folder_ / "out", false);
+  std::ostringstream text;
+  Progress progress(text, false, 2, 1.0);
+  int games = 0;
+  const Outcome outcome = run_campaign(experiment_, settings_, results, [&games](const Cell&, const auto&) { ++games; }, progress);
+  EXPECT_EQ(games, 1) << "one game, shared by both schemes";
+  ASSERT_EQ(outcome.runs.size(), 2u);
+  EXPECT_TRUE(outcome.runs[0].valid && outcome.runs[1].valid);
+  std::ifstream lines(folder_ / "out/runs.jsonl");
+  std::string first, second;
+  ASSERT_TRUE(std::getline(lines, first) && std::getline(lines, second));
+  EXPECT_EQ(nlohmann::json::parse(first)["scheme"], "none");
+  EXPECT_EQ(nlohmann::json::parse(second)["scheme"], "region");
+  EXPECT_THAT(text.str(), AllOf(HasSubstr("[1/2]"), HasSubstr("[2/2]"), HasSubstr("0:00 left")));
+}
+
+TEST_F(CampaignTest, AnInterruptEndsTheCellAndKeepsWhatWasMeasured) {
+  experiment_.schemes = {"none", "region"};
+  ResultsDirectory results(folder_ / "out", false);
+  std::ostringstream text;
+  Progress progress(text, false, 2, 1.0);
+  std::atomic<bool> is_interrupted = false;
+  settings_.is_interrupted = &is_interrupted;
+  const std::string flag = (folder_ / "second").string();
+  server("if [ -e " + flag + " ]; then kill -USR1 $PPID; sleep 60; fi\ntouch " + flag + "\n" + find_report +
+         "echo listening on 127.0.0.1:4711\ncat >\"$report\" <<'R'\n" + canned_server_report(cell_).dump() + "\nR\n");
+  static std::atomic<bool>* interrupted_flag = &is_interrupted;
+  interrupted_flag = &is_interrupted;
+  signal(SIGUSR1, [](int) { interrupted_flag->store(true); });
+  const Outcome outcome = run_campaign(experiment_, settings_, results, [](const Cell&, const auto&) {}, progress);
+  signal(SIGUSR1, SIG_DFL);
+  EXPECT_TRUE(outcome.was_interrupted);
+  EXPECT_EQ(outcome.runs.size(), 1u);
+}
+
+TEST_F(CampaignTest, AFullDiskEndsTheCampaignAndKeepsTheRunInMemory) {
+  std::filesystem::create_directory(folder_ / "out");
+  std::filesystem::create_symlink("/dev/full", folder_ / "out/runs.jsonl");
+  experiment_.schemes = {"none", "region"};
+  ResultsDirectory results(folder_ / "out", false);
+  std::ostringstream text;
+  Progress progress(text, false, 2, 1.0);
+  const Outcome outcome = run_campaign(experiment_, settings_, results, [](const Cell&, const auto&) {}, progress);
+  EXPECT_THAT(outcome.output_failure, AllOf(HasSubstr("runs.jsonl"), HasSubstr("No space left")));
+  EXPECT_EQ(outcome.runs.size(), 1u);
+}
+
+TEST(Results, ExistingResultsAreNotReplacedUnasked) {
+  std::string pattern = testing::TempDir() + "rink-results-XXXXXX";
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  ResultsDirectory(folder / "a", false).append(RunRecord{});
+  try {
+    ResultsDirectory(folder / "a", false);
+    ADD_FAILURE() << "replaced";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("runs.jsonl"), HasSubstr("--force")));
+  }
+  ResultsDirectory(folder / "a", true).write("summary.csv", "x");
+  EXPECT_EQ(free_directory(folder), folder / "report");
+  std::filesystem::create_directory(folder / "report");
+  EXPECT_EQ(free_directory(folder), folder / "report-2");
+  std::ofstream(folder / "file") << "x";
+  EXPECT_THROW(ResultsDirectory(folder / "file", false), OutputError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ProgressLine, TimeLeftFollowsTheMeanOfTheFinishedCells) {
+  std::ostringstream text;
+  Progress progress(text, true, 4, 5.0);
+  EXPECT_DOUBLE_EQ(progress.left_s(), 20.0);
+  RunRecord record;
+  record.valid = true;
+  progress.finished(record, 2.0);
+  progress.finished(record, 4.0);
+  EXPECT_DOUBLE_EQ(progress.left_s(), 6.0);
+  progress.starts({"client-server", "grid", "periodic", 30, 7});
+  EXPECT_THAT(text.str(), AllOf(HasSubstr("[3/4] grid, periodic, 30 clients, seed 7"), HasSubstr("0:06 left")));
+}
+
+}  // namespace
+}  // namespace rink::loadgen

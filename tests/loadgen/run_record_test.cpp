@@ -1,0 +1,74 @@
+// From two reports to one line of runs.jsonl, and what makes a run not count.
+#include "loadgen/run_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "canned_reports.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::HasSubstr;
+
+const Cell cell{"client-server", "grid", "periodic", 10, 4};
+
+RunRecord judged(const nlohmann::json& server, const nlohmann::json& bots) {
+  RunRecord record = record_for(small_experiment(), cell);
+  judge(record, server, bots);
+  return record;
+}
+
+TEST(RunRecord, RatesArePerClientAndSecondAndHeadersAreAdded) {
+  const RunRecord record = judged(canned_server_report(cell), canned_bots_report(cell));
+  EXPECT_TRUE(record.valid) << record.why_invalid;
+  EXPECT_DOUBLE_EQ(record.down_bytes_per_client_per_s.value(), 400'000 / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(record.up_bytes_per_client_per_s.value(), 4'000 / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(record.wire_bytes_per_client_per_s.value(), (400'000 + 66 * 1'000 + 4'000 + 66 * 100) / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(record.messages_per_s.value(), 2'500.0);
+  EXPECT_NEAR(record.update_age_ms.p99.value(), 10.0, 0.01);
+  EXPECT_FALSE(record.update_age_ms.p999);
+  EXPECT_FALSE(record.key_to_effect_ms.p90);
+}
+
+TEST(RunRecord, ALineHasTheDocumentedKeysInOrder) {
+  const auto line = to_json(judged(canned_server_report(cell), canned_bots_report(cell)));
+  const std::vector<std::string> documented{
+      "mode", "scheme", "policy", "clients", "entities", "seed", "tick_rate_hz", "ticks", "ticks_on_time_fraction", "down_bytes_per_client_per_s",
+      "up_bytes_per_client_per_s", "wire_bytes_per_client_per_s", "messages_per_s", "update_age_ms", "key_to_effect_ms", "physics_us_per_tick",
+      "filter_us_per_tick", "send_us_per_tick", "server_rss_bytes", "state_hash", "valid", "why_invalid"};
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : line.items()) keys.push_back(key);
+  ASSERT_GE(keys.size(), documented.size());
+  keys.resize(documented.size());
+  EXPECT_EQ(keys, documented);
+  EXPECT_EQ(line["update_age_ms"].dump().substr(0, 7), "{\"p50\":");
+  EXPECT_TRUE(line["update_age_ms"]["p999"].is_null());
+}
+
+TEST(RunRecord, EachWayToFailMakesARunInvalidAndSaysWhy) {
+  const auto reason = [](auto&& spoil) {
+    nlohmann::json server = canned_server_report(cell), bots = canned_bots_report(cell);
+    spoil(server, bots);
+    const RunRecord record = judged(server, bots);
+    EXPECT_EQ(record.valid, record.why_invalid.empty());
+    return record.why_invalid;
+  };
+  EXPECT_THAT(reason([](auto&, auto& b) { b["valid"] = false, b["why_invalid"] = "4 % of the keys were sent late"; }), HasSubstr("4 % of the keys"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["valid"] = false, s["why_invalid"] = "no time"; }), HasSubstr("the server: no time"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["kernel_bytes_sent"] = 506'000; }), HasSubstr("sent by the server"));
+  EXPECT_EQ(reason([](auto& s, auto&) { s["kernel_bytes_sent"] = 504'000; }), "");
+  EXPECT_THAT(reason([](auto&, auto& b) { b["total_bytes_received"] = 0; }), HasSubstr("received by the bots"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["lost_federates"] = 1; }), HasSubstr("1 clients lost by the server"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["dropped_connections"] = 2; }), HasSubstr("2 connections dropped"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["federates_lost"] = 3; }), HasSubstr("3 clients lost by the bots"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["keys_sent"] = 69; }), HasSubstr("69 of 70"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["clients"] = 9; }), HasSubstr("is 9 instead of 10"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s.erase("physics_us_per_tick"); }), HasSubstr("physics_us_per_tick"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["measured_s"] = 0.0; }), HasSubstr("nothing was measured"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["update_age_ms"] = {1, 2}; }), HasSubstr("a histogram"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s = nlohmann::json::array(); }), HasSubstr("the report of the server"));
+}
+
+}  // namespace
+}  // namespace rink::loadgen

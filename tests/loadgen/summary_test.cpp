@@ -1,0 +1,121 @@
+// Means over replications by hand, runs that do not count, the agreement of games, and the table's shape.
+#include "loadgen/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "canned_reports.h"
+#include "loadgen/table.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+RunRecord run(const std::string& scheme, std::uint32_t clients, std::uint64_t seed, double down, bool valid = true) {
+  const Cell cell{"client-server", scheme, "periodic", clients, seed};
+  RunRecord record = record_for(small_experiment(), cell);
+  judge(record, canned_server_report(cell), canned_bots_report(cell));
+  record.down_bytes_per_client_per_s = down;
+  record.state_hash = "hash-of-seed-" + std::to_string(seed);
+  record.valid = valid;
+  record.why_invalid = valid ? "" : "bots were late";
+  return record;
+}
+
+const std::vector<RunRecord> runs{run("none", 10, 1, 100.0), run("grid", 10, 1, 30.0), run("none", 10, 2, 104.0),
+                                  run("grid", 10, 2, 36.0),  run("none", 10, 3, 1e9, false), run("grid", 10, 3, 33.0)};
+
+TEST(Summary, MeansAndDeviationsAreThoseOfTheValidRuns) {
+  const auto rows = summarise(runs);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].scheme, "none");
+  EXPECT_EQ(rows[0].valid_runs, 2u);
+  EXPECT_EQ(rows[0].invalid_runs, 1u);
+  const Statistic& none = rows[0].of("down_bytes_per_client_per_s");
+  EXPECT_DOUBLE_EQ(none.mean.value(), 102.0);
+  EXPECT_DOUBLE_EQ(none.deviation.value(), std::sqrt(8.0));
+  EXPECT_DOUBLE_EQ(none.min.value(), 100.0);
+  EXPECT_DOUBLE_EQ(none.max.value(), 104.0);
+  const Statistic& grid = rows[1].of("down_bytes_per_client_per_s");
+  EXPECT_DOUBLE_EQ(grid.mean.value(), 33.0);
+  EXPECT_DOUBLE_EQ(grid.deviation.value(), 3.0);
+  EXPECT_DOUBLE_EQ(rows[0].down_bytes_ratio_to_none.value(), 1.0);
+  EXPECT_DOUBLE_EQ(rows[1].down_bytes_ratio_to_none.value(), 33.0 / 102.0);
+}
+
+TEST(Summary, AFigureThatOneValidRunLacksIsAbsent) {
+  std::vector<RunRecord> some = runs;
+  some[0].update_age_ms.p99.reset();
+  const auto rows = summarise(some);
+  EXPECT_FALSE(rows[0].of("update_age_ms_p99").mean);
+  EXPECT_TRUE(rows[0].of("update_age_ms_p50").mean);
+  EXPECT_TRUE(rows[1].of("update_age_ms_p99").mean);
+}
+
+TEST(Summary, WithoutAValidRunThereIsARowButNoFigure) {
+  const auto rows = summarise(std::vector<RunRecord>{run("none", 10, 1, 5.0, false)});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_FALSE(rows[0].of("down_bytes_per_client_per_s").mean);
+  EXPECT_FALSE(rows[0].down_bytes_ratio_to_none);
+}
+
+TEST(Summary, RowsAreGroupedByClientsAscendingWithTheSchemesInOrder) {
+  const auto rows = summarise(std::vector<RunRecord>{run("none", 30, 1, 1), run("grid", 30, 1, 1), run("none", 5, 1, 1), run("grid", 5, 1, 1)});
+  std::string order;
+  for (const SummaryRow& row : rows) order += row.scheme + std::to_string(row.clients) + " ";
+  EXPECT_EQ(order, "none5 grid5 none30 grid30 ");
+}
+
+TEST(Summary, GamesAgreeUnlessTwoValidRunsOfOneSeedDiffer) {
+  EXPECT_EQ(agreement_of(runs).games, 3u - 1u);  // of the third seed only one run is valid
+  EXPECT_TRUE(agreement_of(runs).differing.empty());
+  std::vector<RunRecord> some = runs;
+  some[4].state_hash = "odd";  // invalid, takes no part
+  EXPECT_TRUE(agreement_of(some).differing.empty());
+  some[1].state_hash = "odd";
+  ASSERT_EQ(agreement_of(some).differing.size(), 1u);
+  EXPECT_THAT(agreement_of(some).differing[0], HasSubstr("seed 1: hash-of-seed-1 odd"));
+  for (RunRecord& record : some) record.keys = "live";
+  EXPECT_EQ(agreement_of(some).games, 0u);
+}
+
+TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
+  std::istringstream csv(to_csv(summarise(runs)));
+  std::string header, none, grid, rest;
+  std::getline(csv, header);
+  std::getline(csv, none);
+  std::getline(csv, grid);
+  EXPECT_FALSE(std::getline(csv, rest));
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(6 + 4 * figures().size()));
+  EXPECT_EQ(commas(none), commas(header));
+  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,2,1,1,"));
+  EXPECT_THAT(none, HasSubstr(",102,"));
+  EXPECT_THAT(none, HasSubstr(",,,,"));  // update_age_ms_p999
+  EXPECT_THAT(none, Not(HasSubstr("1e+09")));
+}
+
+TEST(Table, FitsAHundredColumnsAndSaysWhatDidNotCount) {
+  std::vector<RunRecord> some = runs;
+  some.push_back(run("region", 100'000, 1, 123'456.0));
+  std::istringstream table(table_of(some, false));
+  for (std::string line; std::getline(table, line);) {
+    if (line.find("invalid") == std::string::npos) {
+      EXPECT_LE(line.size(), 100u) << line;
+    }
+  }
+  EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: yes"));
+  EXPECT_THAT(table_of(some, false), HasSubstr("client-server-none-periodic-10-seed3: bots were late"));
+  EXPECT_THAT(table_of(some, false), Not(HasSubstr("\033")));
+  some[0].state_hash = "odd";
+  EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: NO"));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
