@@ -100,8 +100,8 @@ std::string table_of(std::span<const RunRecord> runs, bool is_coloured) {
     const bool is_emphasised = is_coloured && has_fewest_bytes(rows[i], rows);
     text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i]) + (is_emphasised ? "\033[0m" : "") + "\n";
   }
-  text += "down: payload; wire: both directions with headers; all: wire bytes of all clients; of none: down\n";
-  text += "bytes relative to no filter; n: runs averaged (valid/all if some did not count); -: too few samples to say\n";
+  text += "down: payload; wire: both directions with headers; all: wire bytes of all clients;\n";
+  text += "of none: down bytes relative to no filter; n: runs averaged (valid/all); -: too few samples to say\n";
   return text + agreement_text(runs) + invalid_text(runs);
 }
 
