@@ -6,14 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
+#include "rti/bytes.h"
+
 namespace rink::rti {
-
-/// One conversation with one peer. Never used twice within a transport.
-using ConnectionId = std::uint32_t;
-
-using Bytes = std::span<const std::byte>;
 
 enum class CloseReason : std::uint8_t {
   closed_by_peer,   ///< orderly or not, the peer is gone
@@ -23,6 +21,17 @@ enum class CloseReason : std::uint8_t {
   failed,           ///< any other error of the operating system
 };
 const char* to_string(CloseReason reason);
+
+/// What went wrong when a transport was set up; `what` says it to a user, with address and port.
+class TransportError : public std::runtime_error {
+ public:
+  enum class Kind : std::uint8_t { in_use, no_such_address, no_permission, too_many_files, failed };
+  TransportError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  Kind kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
 
 /// Told what a transport found out while it was polled. Callbacks may send and close, but not poll.
 class TransportListener {

@@ -1,0 +1,154 @@
+// A federate's side of the RTI: services in, bytes out; bytes in, callbacks out.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/federate_ambassador.h"
+#include "rti/fom.h"
+#include "rti/frame.h"
+#include "rti/message.h"
+#include "rti/stream.h"
+
+namespace rink::rti {
+
+/// A region and the bounds that it shall have.
+struct RegionBounds {
+  RegionHandle region;
+  im::Region bounds;  ///< over the dimensions X and Y [m]
+};
+
+/// How long a silent peer is waited for.
+struct Patience {
+  double heartbeat_s = 1.0;  ///< a side that has nothing else to say says so this often
+  double lost_after_s = 5.0; ///< a side that has said nothing for so long is lost
+};
+
+struct AmbassadorCounters {
+  std::uint64_t bytes_received = 0, bytes_sent = 0;  ///< payload, frame headers included
+  std::uint64_t frames_received = 0, frames_sent = 0;
+  std::uint64_t updates_sent = 0, updates_reflected = 0;
+  std::uint64_t interactions_sent = 0, interactions_received = 0;
+  std::uint64_t objects_discovered = 0, objects_removed = 0;
+  std::uint64_t scope_changes = 0;
+};
+
+/// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
+/// Services assert on the programmer's mistakes (an object of somebody else, an undeclared class).
+class Ambassador {
+ public:
+  /// Both must outlive the ambassador.
+  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {});
+
+  const Fom& fom() const { return fom_; }
+
+  /// Federation management. `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at once; objects and
+  /// interactions only `joined`. After `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
+  void join(std::string_view federation, std::string_view federate_name, std::string_view federate_type);
+  void resign();
+  bool is_joined() const { return phase_ == Phase::joined; }
+  FederateHandle federate() const { return federate_; }
+  /// All federates that are joined when the RTI hears of it form the set; each is told and must achieve it. At most 255 bytes.
+  void register_synchronization_point(std::string_view label);
+  void synchronization_point_achieved(std::string_view label);
+  /// Asks to be told who is there, who comes and who goes.
+  void watch_federates();
+
+  /// Declaration management. A later call for the same class (and region) replaces the earlier one.
+  void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
+  void unpublish_object_class(ObjectClassHandle object_class);
+  /// Without a region: the default region, that is everything.
+  void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region = {});
+  void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {});
+  void publish_interaction_class(InteractionClassHandle interaction_class);
+  void unpublish_interaction_class(InteractionClassHandle interaction_class);
+  void subscribe_interaction_class(InteractionClassHandle interaction_class);
+  void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
+
+  /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/message.h). The name may be empty.
+  ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
+  void delete_object_instance(ObjectHandle object);
+  /// `values` as in `reflect_attribute_values`. Successive updates of one class, set and stamp travel as one block.
+  void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  /// To all who subscribe to the class, never back to the sender. At most 32 KiB.
+  void send_interaction(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp);
+  /// The same to one federate only, if it subscribes.
+  void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp);
+
+  /// Data distribution management. Bounds must be finite with low <= high. A region without bounds overlaps nothing. `set_region` is local;
+  /// changes take effect at the RTI's next match after the commit. The same region may serve subscriptions and updates.
+  RegionHandle create_region();
+  void set_region(RegionHandle region, const im::Region& bounds);
+  void commit_region_modifications(RegionHandle region);
+  /// Sets and commits many at once.
+  void commit_region_modifications(std::span<const RegionBounds> regions);
+  /// Replaces the object's former region; an empty handle gives it back to the default region.
+  void associate_regions_for_updates(ObjectHandle object, RegionHandle region);
+  /// Its subscriptions end; objects that use it return to the default region.
+  void delete_region(RegionHandle region);
+
+  /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has explained: close the connection.
+  bool receive(Bytes bytes);
+  /// What must go to the RTI, and that it has gone.
+  Bytes outgoing() const { return outgoing_.bytes(); }
+  void clear_outgoing();
+  /// `now` [s] never decreases; the origin is free. Says that we live when idle, notices a silent RTI.
+  void advance_clock(double now);
+  /// The connection is gone: `connection_lost` follows unless the federate resigned or was refused.
+  void disconnected(std::string_view why);
+
+  const AmbassadorCounters& counters() const { return counters_; }
+
+ private:
+  enum class Phase : std::uint8_t { idle, joining, joined, ended };
+  struct KnownObject {
+    static constexpr std::uint16_t unknown = 0xffff;
+    std::uint16_t object_class = unknown;
+    bool is_own = false;
+  };
+  template <class Message>
+  void say(Message message);
+  KnownObject* find(ObjectHandle object);
+  KnownObject& remember(ObjectHandle object);
+  bool take_frame(Bytes frame);
+  bool take_message(Reader& reader);
+  bool take_membership(Reader& reader, std::uint8_t kind);
+  bool take_synchronization(Reader& reader, std::uint8_t kind);
+  bool take_federate(Reader& reader, std::uint8_t kind);
+  bool take_object(Reader& reader, std::uint8_t kind);
+  bool take_scope(Reader& reader, std::uint8_t kind);
+  bool take_updates(Reader& reader);
+  bool take_interaction(Reader& reader);
+  void lose(std::string_view why);
+  void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
+
+  const Fom& fom_;
+  FederateAmbassador& callbacks_;
+  Patience patience_;
+  Phase phase_ = Phase::idle;
+  FederateHandle federate_;
+  std::uint32_t object_block_ = 0, objects_registered_ = 0;
+  std::vector<std::vector<KnownObject>> known_;  ///< by block, then by number within it
+  std::vector<im::Region> regions_;              ///< by handle
+  std::vector<std::uint32_t> free_regions_;
+  FrameWriter outgoing_;
+  FrameReader incoming_;
+  /// The block of updates that still grows at the end of `outgoing_`, if any.
+  struct OpenUpdates {
+    bool is_open = false;
+    ObjectClassHandle object_class;
+    AttributeSet attributes;
+    Stamp stamp;
+    std::uint32_t value_size = 0, count = 0;
+    std::size_t at = 0;  ///< where its message starts
+  } open_;
+  double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
+  bool has_clock_ = false, has_said_ = false, has_heard_ = false;
+  AmbassadorCounters counters_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,15 @@
+// Views of raw bytes, and the numbers that transports give their conversations.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace rink::rti {
+
+/// One conversation with one peer. Never used twice within a transport.
+using ConnectionId = std::uint32_t;
+
+using Bytes = std::span<const std::byte>;
+
+}  // namespace rink::rti

@@ -1,0 +1,50 @@
+// The callbacks by which the RTI tells a federate what happened.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "rti/attribute_set.h"
+#include "rti/bytes.h"
+#include "rti/handles.h"
+#include "rti/membership.h"
+
+namespace rink::rti {
+
+/// When something was said. Carried once per run of equal stamps, not per update.
+struct Stamp {
+  double time = 0.0;      ///< logical time [s], the sender's
+  std::uint64_t tag = 0;  ///< the sender's user-supplied tag; the RTI only carries it
+  friend bool operator==(const Stamp&, const Stamp&) = default;
+};
+
+/// All bodies are empty: override what matters. Views handed in are valid during the call. Callbacks may call any service of the ambassador
+/// except `receive`, `advance_clock` and `clear_outgoing`.
+class FederateAmbassador {
+ public:
+  virtual ~FederateAmbassador() = default;
+
+  virtual void joined(FederateHandle) {}
+  virtual void join_refused(Refusal, std::string_view /*why*/) {}
+  /// The RTI is silent or gone, or sent what nobody understands; nothing more will arrive.
+  virtual void connection_lost(std::string_view /*why*/) {}
+
+  virtual void announce_synchronization_point(std::string_view /*label*/) {}
+  virtual void federation_synchronized(std::string_view /*label*/) {}
+
+  /// Told after `Ambassador::watch_federates`: first of all who are there (the watcher too), then of those who come and go.
+  virtual void federate_joined(FederateHandle, std::string_view /*name*/, std::string_view /*type*/) {}
+  virtual void federate_resigned(FederateHandle, std::string_view /*name*/, std::string_view /*type*/, ResignReason) {}
+
+  /// At most once per object. The class is the one it was registered with, which may inherit from the subscribed one.
+  virtual void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view /*name*/) {}
+  /// `values` are concatenated in the order of the attributes; one of variable size is preceded by its length [bytes] as a little-endian u32.
+  virtual void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes /*values*/, const Stamp&) {}
+  virtual void attributes_in_scope(ObjectHandle) {}
+  virtual void attributes_out_of_scope(ObjectHandle) {}
+  virtual void remove_object_instance(ObjectHandle) {}
+
+  virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/, FederateHandle /*sender*/, const Stamp&) {}
+};
+
+}  // namespace rink::rti

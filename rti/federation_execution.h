@@ -1,0 +1,97 @@
+// The RTI's central component: one federation execution. Bytes and time in, bytes out; no I/O, no clock, no thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/ambassador.h"
+#include "rti/bytes.h"
+#include "rti/fom.h"
+
+namespace rink::rti {
+
+/// Why the RTI dropped a connection on its own account.
+enum class Violation : std::uint8_t {
+  malformed,      ///< bytes that are no message, or a value out of its range
+  oversized,      ///< a frame longer than its sender may send
+  wrong_phase,    ///< anything but a join from one that has not joined, or a second join
+  unknown_name,   ///< a class, attribute, object, region or label that does not exist
+  undeclared,     ///< a class or attribute that its sender has not published
+  not_owned,      ///< an object of somebody else
+  over_limit,     ///< more objects or regions than allowed
+  silent,         ///< nothing heard for too long
+  refused,        ///< its join was refused
+};
+inline constexpr std::size_t violation_count = 9;
+const char* to_string(Violation violation);
+
+struct FederationSettings {
+  std::string federation = "rink";
+  std::string filter = "none";              ///< a name that `im::make_filter` knows
+  im::FilterSettings filter_settings;
+  std::uint32_t federate_max = 16'000;      ///< joined at once; below `object_block_max`
+  std::uint32_t object_max = 1u << 20;      ///< registered at once
+  std::uint32_t objects_per_federate_max = object_block;
+  Patience patience;
+};
+
+struct FederationCounters {
+  std::uint64_t bytes_received = 0, bytes_sent = 0;      ///< payload, frame headers included
+  std::uint64_t frames_received = 0, frames_sent = 0;
+  std::uint64_t updates_received = 0, updates_sent = 0;  ///< records; one sent to n federates counts n times
+  std::uint64_t interactions_received = 0, interactions_sent = 0;
+  std::uint64_t scope_entries = 0, scope_exits = 0;
+  std::uint64_t joins = 0, resigns = 0;
+  std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`
+};
+
+/// Where `flush` leaves what must go out.
+class Outlet {
+ public:
+  virtual ~Outlet() = default;
+  /// Everything for one destination, at most once per flush. The parts are valid during the call.
+  virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
+  /// Close it once the bytes sent before are on their way; the federation execution has forgotten it already.
+  virtual void drop(ConnectionId connection, std::string_view why) = 0;
+};
+
+/// Owns federates, declarations, objects with their latest values, synchronisation points and regions. A tick is: any number of `receive`,
+/// then `match`, which alone decides who hears of what, then `flush`. Connections that break a rule are forgotten at once, counted by reason,
+/// and handed to `Outlet::drop` by the next flush; nobody else notices more than a lost federate.
+class FederationExecution {
+ public:
+  /// `fom` must outlive it. Throws std::invalid_argument naming the known filters if there is none called `settings.filter`.
+  FederationExecution(const Fom& fom, const FederationSettings& settings);
+  ~FederationExecution();
+  FederationExecution(const FederationExecution&) = delete;
+  FederationExecution& operator=(const FederationExecution&) = delete;
+
+  /// Connection ids may be any numbers that are not connected now; small ones are dense.
+  void connect(ConnectionId connection);
+  void receive(ConnectionId connection, Bytes bytes);
+  void disconnect(ConnectionId connection, std::string_view why);
+  /// `now` [s] never decreases. Drops who has been silent for too long.
+  void advance_clock(double now);
+  /// Runs the filter and turns its changes into scope changes.
+  void match();
+  void flush(Outlet& outlet);
+
+  std::size_t federate_count() const;
+  std::size_t object_count() const;
+  /// True if `federate` is told of `object` since the last match; for tests against brute force.
+  bool is_in_scope(FederateHandle federate, ObjectHandle object) const;
+  const FederationCounters& counters() const;
+  const im::Filter& filter() const;
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,104 @@
+// The federation object model: what federates may say to each other, read from an IEEE 1516.2 OMT XML file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rti/attribute_set.h"
+#include "rti/bytes.h"
+#include "rti/handles.h"
+
+namespace rink::rti {
+
+/// A FOM or federation file that can't be used; `what` names file, line, element or key, and what is allowed.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class Transportation : std::uint8_t { reliable, best_effort };
+enum class Order : std::uint8_t { receive, timestamp };
+
+struct Attribute {
+  std::string name;
+  std::string data_type;
+  std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
+  Transportation transportation = Transportation::reliable;
+  Order order = Order::receive;
+  bool has_dimensions = false;        ///< regions apply to it
+};
+
+struct Parameter {
+  std::string name;
+  std::string data_type;
+  std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
+};
+
+struct ObjectClass {
+  std::string name;                   ///< unqualified, as in the file
+  ObjectClassHandle parent;           ///< empty for the root
+  std::vector<Attribute> attributes;  ///< inherited ones first, so a handle means the same in every subclass
+};
+
+struct InteractionClass {
+  std::string name;
+  InteractionClassHandle parent;
+  std::vector<Parameter> parameters;  ///< inherited ones first
+  Transportation transportation = Transportation::reliable;
+  Order order = Order::receive;
+};
+
+/// Immutable once loaded; handles are indices into its arrays, equal for all who loaded an equal model.
+class Fom {
+ public:
+  /// Throws `FileError`.
+  static Fom load(const std::string& path);
+  /// The same from text; `source` stands for the file's name in errors.
+  static Fom parse(std::string_view xml, const std::string& source);
+
+  const std::string& name() const { return name_; }
+  const std::vector<ObjectClass>& object_classes() const { return object_classes_; }
+  const std::vector<InteractionClass>& interaction_classes() const { return interaction_classes_; }
+  const std::vector<std::string>& dimensions() const { return dimensions_; }
+
+  /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the root ("HLAobjectRoot.Entity").
+  /// Nothing if there is none, or several.
+  std::optional<ObjectClassHandle> object_class(std::string_view name) const;
+  std::optional<AttributeHandle> attribute(ObjectClassHandle object_class, std::string_view name) const;
+  std::optional<InteractionClassHandle> interaction_class(std::string_view name) const;
+  std::optional<ParameterHandle> parameter(InteractionClassHandle interaction_class, std::string_view name) const;
+  std::optional<DimensionHandle> dimension(std::string_view name) const;
+
+  /// The handle must name a class of this model.
+  const ObjectClass& at(ObjectClassHandle handle) const { return object_classes_[handle.value]; }
+  const InteractionClass& at(InteractionClassHandle handle) const { return interaction_classes_[handle.value]; }
+  /// All attributes of a class.
+  AttributeSet attributes(ObjectClassHandle handle) const;
+  /// True if `handle` is `ancestor` or inherits from it.
+  bool is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const;
+  bool is_a(InteractionClassHandle handle, InteractionClassHandle ancestor) const;
+
+  /// Bytes that the values of `set` take together, or nothing if one of them varies.
+  std::optional<std::uint32_t> values_size(ObjectClassHandle handle, AttributeSet set) const;
+  /// True if `values` are exactly one value for each attribute of `set`.
+  bool values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const;
+  /// Where the value of `attribute` stands in `values` of `set` (its length word included if its size varies); values must fit.
+  Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const;
+
+  /// Of what matters to a conversation: names, order, types, sizes, dimensions; not of comments, layout or semantics. FNV-1a.
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  friend class FomReader;
+  std::string name_;
+  std::vector<ObjectClass> object_classes_;
+  std::vector<InteractionClass> interaction_classes_;
+  std::vector<std::string> dimensions_;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace rink::rti

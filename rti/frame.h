@@ -1,0 +1,112 @@
+// Frames: messages gathered under one length, cut and joined again from a stream of bytes.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "rti/bytes.h"
+
+namespace rink::rti {
+
+inline constexpr std::size_t frame_header_size = 4;              ///< the payload's length, u32
+inline constexpr std::size_t frame_max_to_rti = 64 * 1024;       ///< longest payload that a joined federate may send [bytes]
+inline constexpr std::size_t frame_max_to_join = 1024;           ///< and one that has not joined
+inline constexpr std::size_t frame_max_to_federate = 64u << 20;  ///< longest payload that the RTI sends
+
+/// Collects messages in frames; a frame is closed when the next message would not fit.
+class FrameWriter {
+ public:
+  explicit FrameWriter(std::size_t payload_max) : payload_max_(payload_max) {}
+
+  /// Where to append one message of `size` bytes. Call `appended` when it is written.
+  std::vector<std::byte>& begin_message(std::size_t size) {
+    if (!is_open_ || payload_size() + size > payload_max_) open();
+    return bytes_;
+  }
+  /// True if the frame at the end takes `size` more bytes.
+  bool has_room(std::size_t size) const { return is_open_ && payload_size() + size <= payload_max_; }
+  std::vector<std::byte>& buffer() { return bytes_; }
+  /// The frame's length becomes true again.
+  void appended() {
+    const auto length = static_cast<std::uint32_t>(payload_size());
+    std::memcpy(bytes_.data() + start_, &length, sizeof length);
+  }
+  /// The next message starts a new frame.
+  void close_frame() { is_open_ = false; }
+  Bytes bytes() const { return bytes_; }
+  std::uint64_t frame_count() const { return frame_count_; }
+  void clear() {
+    bytes_.clear();
+    is_open_ = false;
+  }
+
+ private:
+  std::size_t payload_size() const { return bytes_.size() - start_ - frame_header_size; }
+  void open() {
+    start_ = bytes_.size();
+    bytes_.resize(start_ + frame_header_size);
+    is_open_ = true;
+    ++frame_count_;
+  }
+
+  std::vector<std::byte> bytes_;
+  std::size_t payload_max_;
+  std::size_t start_ = 0;
+  bool is_open_ = false;
+  std::uint64_t frame_count_ = 0;
+};
+
+/// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and never believes a length before they are there.
+class FrameReader {
+ public:
+  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops and returns false as soon as it does. `limit()` is asked before each
+  /// frame, since it may change with what was said. Nothing is copied of frames that arrive whole.
+  template <class Limit, class Take>
+  bool receive(Bytes bytes, Limit limit, Take take) {
+    while (!bytes.empty()) {
+      if (partial_.empty() && bytes.size() >= frame_header_size) {
+        const std::size_t size = length(bytes);
+        if (size > limit()) return is_oversized_ = true, false;
+        if (bytes.size() >= frame_header_size + size) {
+          if (!take(bytes.subspan(frame_header_size, size))) return false;
+          bytes = bytes.subspan(frame_header_size + size);
+          continue;
+        }
+      }
+      if (!fill(bytes, frame_header_size)) return true;
+      const std::size_t size = length(partial_);
+      if (size > limit()) return is_oversized_ = true, false;
+      if (!fill(bytes, frame_header_size + size)) return true;
+      complete_.swap(partial_);
+      partial_.clear();
+      if (!take(Bytes(complete_).subspan(frame_header_size))) return false;
+    }
+    return true;
+  }
+  /// True if it was a length beyond the limit that stopped `receive`.
+  bool is_oversized() const { return is_oversized_; }
+  std::size_t waiting_bytes() const { return partial_.size(); }
+
+ private:
+  static std::size_t length(Bytes bytes) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  /// Moves bytes to `partial_` until it has `size`; true if it has.
+  bool fill(Bytes& bytes, std::size_t size) {
+    if (partial_.size() < size) {
+      const Bytes taken = bytes.first(std::min(bytes.size(), size - partial_.size()));
+      partial_.insert(partial_.end(), taken.begin(), taken.end());
+      bytes = bytes.subspan(taken.size());
+    }
+    return partial_.size() >= size;
+  }
+
+  std::vector<std::byte> partial_, complete_;
+  bool is_oversized_ = false;
+};
+
+}  // namespace rink::rti

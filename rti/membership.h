@@ -1,0 +1,28 @@
+// Why a federate was not let in, and why it is no longer there.
+#pragma once
+
+#include <cstdint>
+
+namespace rink::rti {
+
+/// Why a join failed; the numbers are those on the wire.
+enum class Refusal : std::uint8_t {
+  wrong_version = 1,   ///< the two ends speak different protocol versions
+  wrong_fom,           ///< the two ends loaded object models that differ
+  wrong_federation,    ///< no federation execution of that name here
+  name_taken,          ///< a federate of that name has joined
+  federation_full,     ///< the federation execution has its greatest number of federates
+  bad_name,            ///< the federate's name is empty
+};
+/// A sentence that tells a user what is wrong, or "unknown refusal".
+const char* to_string(Refusal refusal);
+
+/// How a federate left.
+enum class ResignReason : std::uint8_t {
+  resigned,    ///< it said so
+  lost,        ///< its connection closed or fell silent
+  misbehaved,  ///< it broke the protocol or used what it had not declared or did not own
+};
+const char* to_string(ResignReason reason);
+
+}  // namespace rink::rti

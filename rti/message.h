@@ -1,0 +1,264 @@
+// Every message between a federate and the RTI; docs/wire.md specifies the same bytes in words.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "im/filter.h"
+#include "rti/attribute_set.h"
+#include "rti/federate_ambassador.h"
+#include "rti/frame.h"
+#include "rti/handles.h"
+#include "rti/membership.h"
+
+namespace rink::rti {
+
+inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
+inline constexpr std::uint16_t protocol_version = 1;
+inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
+inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
+inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update [bytes]
+inline constexpr std::uint32_t region_max = 1u << 18;        ///< regions of one federate
+/// An object handle is the block that the RTI gave its owner, times `object_block`, plus the owner's own count.
+inline constexpr std::uint32_t object_block = 1u << 18;
+inline constexpr std::uint32_t object_block_max = 1u << 14;
+
+/// The first byte of each message.
+enum class MessageKind : std::uint8_t {
+  // federate to RTI
+  join = 1, resign, heartbeat, register_synchronization_point, synchronization_point_achieved, watch_federates,
+  publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
+  register_object, delete_object, updates, interaction, modify_regions, associate_region, delete_region,
+  // RTI to federate
+  joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
+  discover_object, remove_object, in_scope, out_of_scope,
+};
+
+struct JoinMessage {
+  static constexpr MessageKind kind = MessageKind::join;
+  std::uint32_t magic = protocol_magic;
+  std::uint16_t version = protocol_version;
+  std::uint64_t fom_hash = 0;
+  std::string_view federation, name, type;
+};
+/// What follows the version belongs to that version: a reader stops there when it speaks another one.
+template <class Stream>
+bool exchange(Stream& stream, JoinMessage& message) {
+  if (!stream.number(message.magic) || !stream.number(message.version)) return false;
+  if (message.magic != protocol_magic) return false;
+  if (message.version != protocol_version) return true;
+  return stream.number(message.fom_hash) && stream.text(message.federation, text_max) && stream.text(message.name, text_max) &&
+         stream.text(message.type, text_max);
+}
+
+/// A message that is its kind and nothing else.
+template <MessageKind k>
+struct BareMessage {
+  static constexpr MessageKind kind = k;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream&, BareMessage<k>&) {
+  return true;
+}
+using ResignMessage = BareMessage<MessageKind::resign>;
+using HeartbeatMessage = BareMessage<MessageKind::heartbeat>;
+using WatchFederatesMessage = BareMessage<MessageKind::watch_federates>;
+
+/// A message about one synchronisation point.
+template <MessageKind k>
+struct LabelMessage {
+  static constexpr MessageKind kind = k;
+  std::string_view label;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, LabelMessage<k>& message) {
+  return stream.text(message.label, text_max);
+}
+using RegisterSynchronizationPointMessage = LabelMessage<MessageKind::register_synchronization_point>;
+using SynchronizationPointAchievedMessage = LabelMessage<MessageKind::synchronization_point_achieved>;
+using AnnounceSynchronizationPointMessage = LabelMessage<MessageKind::announce_synchronization_point>;
+using FederationSynchronizedMessage = LabelMessage<MessageKind::federation_synchronized>;
+
+/// An empty set withdraws.
+struct PublishObjectClassMessage {
+  static constexpr MessageKind kind = MessageKind::publish_object_class;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, PublishObjectClassMessage& message) {
+  return stream.number(message.object_class) && stream.number(message.attributes);
+}
+
+/// An empty set withdraws; `region` is all ones for the default region.
+struct SubscribeObjectClassMessage {
+  static constexpr MessageKind kind = MessageKind::subscribe_object_class;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+  std::uint32_t region = RegionHandle::none;
+};
+template <class Stream>
+bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
+  return stream.number(message.object_class) && stream.number(message.attributes) && stream.number(message.region);
+}
+
+template <MessageKind k>
+struct InteractionClassMessage {
+  static constexpr MessageKind kind = k;
+  std::uint16_t interaction_class = 0;
+  std::uint8_t is_declared = 1;  ///< 0 withdraws
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, InteractionClassMessage<k>& message) {
+  return stream.number(message.interaction_class) && stream.range(message.is_declared, 1);
+}
+using PublishInteractionClassMessage = InteractionClassMessage<MessageKind::publish_interaction_class>;
+using SubscribeInteractionClassMessage = InteractionClassMessage<MessageKind::subscribe_interaction_class>;
+
+/// An object appears: registered by its owner, or discovered by others.
+template <MessageKind k>
+struct ObjectMessage {
+  static constexpr MessageKind kind = k;
+  std::uint32_t object = 0;
+  std::uint16_t object_class = 0;
+  std::string_view name;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, ObjectMessage<k>& message) {
+  return stream.number(message.object) && stream.number(message.object_class) && stream.text(message.name, text_max);
+}
+using RegisterObjectMessage = ObjectMessage<MessageKind::register_object>;
+using DiscoverObjectMessage = ObjectMessage<MessageKind::discover_object>;
+
+template <MessageKind k>
+struct ObjectHandleMessage {
+  static constexpr MessageKind kind = k;
+  std::uint32_t object = 0;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, ObjectHandleMessage<k>& message) {
+  return stream.number(message.object);
+}
+using DeleteObjectMessage = ObjectHandleMessage<MessageKind::delete_object>;
+using RemoveObjectMessage = ObjectHandleMessage<MessageKind::remove_object>;
+using InScopeMessage = ObjectHandleMessage<MessageKind::in_scope>;
+using OutOfScopeMessage = ObjectHandleMessage<MessageKind::out_of_scope>;
+
+/// A block of updates of one class, attribute set and stamp, in both directions. `records` are, `count` times, an object handle (u32) and
+/// values of `value_size` bytes; if the size varies, `value_size` is all ones and a u32 with the size stands before each value.
+struct UpdatesMessage {
+  static constexpr MessageKind kind = MessageKind::updates;
+  static constexpr std::uint32_t varies = 0xffffffffu;
+  static constexpr std::size_t header_size = 1 + 2 + 4 + 16 + 4 + 4 + 4;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+  Stamp stamp;
+  std::uint32_t value_size = 0;
+  std::uint32_t count = 0;
+  Bytes records;
+};
+template <class Stream>
+bool exchange(Stream& stream, Stamp& stamp) {
+  return stream.finite(stamp.time) && stream.number(stamp.tag);
+}
+template <class Stream>
+bool exchange(Stream& stream, UpdatesMessage& message) {
+  if (!stream.number(message.object_class) || !stream.number(message.attributes) || !exchange(stream, message.stamp) ||
+      !stream.number(message.value_size) || !stream.number(message.count)) return false;
+  if (message.value_size != UpdatesMessage::varies && message.value_size > values_max) return false;
+  if (!stream.template bytes<std::uint32_t>(message.records, frame_max_to_federate)) return false;
+  if (message.value_size == UpdatesMessage::varies) return true;  // each record is checked as it is read
+  return message.records.size() == std::uint64_t{message.count} * (sizeof(std::uint32_t) + message.value_size);
+}
+
+/// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the sender.
+struct InteractionMessage {
+  static constexpr MessageKind kind = MessageKind::interaction;
+  std::uint16_t interaction_class = 0;
+  std::uint32_t federate = FederateHandle::none;
+  Stamp stamp;
+  Bytes parameters;
+};
+template <class Stream>
+bool exchange(Stream& stream, InteractionMessage& message) {
+  return stream.number(message.interaction_class) && stream.number(message.federate) && exchange(stream, message.stamp) &&
+         stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
+}
+
+/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y (f64 each). A new handle must be the
+/// least that is free.
+struct ModifyRegionsMessage {
+  static constexpr MessageKind kind = MessageKind::modify_regions;
+  static constexpr std::size_t record_size = 4 + 4 * 8;
+  static constexpr std::size_t count_max = 1024;
+  std::uint16_t count = 0;
+  Bytes records;
+};
+template <class Stream>
+bool exchange(Stream& stream, ModifyRegionsMessage& message) {
+  return stream.range(message.count, ModifyRegionsMessage::count_max) && stream.rest(message.records, message.count * ModifyRegionsMessage::record_size);
+}
+
+struct AssociateRegionMessage {
+  static constexpr MessageKind kind = MessageKind::associate_region;
+  std::uint32_t object = 0;
+  std::uint32_t region = RegionHandle::none;
+};
+template <class Stream>
+bool exchange(Stream& stream, AssociateRegionMessage& message) {
+  return stream.number(message.object) && stream.number(message.region);
+}
+
+struct DeleteRegionMessage {
+  static constexpr MessageKind kind = MessageKind::delete_region;
+  std::uint32_t region = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, DeleteRegionMessage& message) {
+  return stream.number(message.region);
+}
+
+struct JoinedMessage {
+  static constexpr MessageKind kind = MessageKind::joined;
+  std::uint32_t federate = 0;
+  std::uint32_t object_block = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, JoinedMessage& message) {
+  return stream.number(message.federate) && stream.range(message.object_block, object_block_max - 1);
+}
+
+/// The same in every version of the protocol, so that a refused stranger understands.
+struct RefusedMessage {
+  static constexpr MessageKind kind = MessageKind::refused;
+  std::uint8_t refusal = 0;
+  std::string_view why;
+};
+template <class Stream>
+bool exchange(Stream& stream, RefusedMessage& message) {
+  return stream.number(message.refusal) && stream.text(message.why, text_max);
+}
+
+struct FederateJoinedMessage {
+  static constexpr MessageKind kind = MessageKind::federate_joined;
+  std::uint32_t federate = 0;
+  std::string_view name, type;
+};
+template <class Stream>
+bool exchange(Stream& stream, FederateJoinedMessage& message) {
+  return stream.number(message.federate) && stream.text(message.name, text_max) && stream.text(message.type, text_max);
+}
+
+struct FederateResignedMessage {
+  static constexpr MessageKind kind = MessageKind::federate_resigned;
+  std::uint32_t federate = 0;
+  std::uint8_t reason = 0;
+  std::string_view name, type;
+};
+template <class Stream>
+bool exchange(Stream& stream, FederateResignedMessage& message) {
+  return stream.number(message.federate) && stream.range(message.reason, static_cast<std::uint64_t>(ResignReason::misbehaved)) &&
+         stream.text(message.name, text_max) && stream.text(message.type, text_max);
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,52 @@
+// Runs a federation execution on any number of transports at once: the server's own federate in process, its clients by TCP.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rti/federation_execution.h"
+#include "rti/transport/transport.h"
+
+namespace rink::rti {
+
+/// A tick is `poll` (as often as wanted), `match`, `flush`.
+class FederationHost {
+ public:
+  explicit FederationHost(FederationExecution& execution);
+  ~FederationHost();
+
+  /// The transport must outlive the host. Its listening and connecting is its owner's business.
+  void add(Transport& transport);
+
+  /// Takes in what came, from each transport in the order added; only the last one waits, up to `longest_wait`, if nothing came before.
+  void poll(std::chrono::nanoseconds longest_wait);
+  void advance_clock(double now) { execution_.advance_clock(now); }
+  void match() { execution_.match(); }
+  /// One write per destination; drops whom the execution wants dropped.
+  void flush();
+
+  FederationExecution& execution() { return execution_; }
+  std::size_t connection_count() const { return connection_count_; }
+  /// Sum over the transports' connections, closed ones included.
+  std::uint64_t closed_by_full_queue() const { return closed_by_full_queue_; }
+
+ private:
+  class Port;
+  class HostOutlet;
+  struct Route {
+    Port* port = nullptr;
+    ConnectionId connection = 0;  ///< the transport's number
+  };
+  ConnectionId admit(Port& port, ConnectionId connection);
+
+  FederationExecution& execution_;
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<Route> routes_;  ///< by the execution's connection number
+  std::vector<ConnectionId> free_routes_;
+  std::size_t connection_count_ = 0;
+  std::uint64_t closed_by_full_queue_ = 0;
+};
+
+}  // namespace rink::rti

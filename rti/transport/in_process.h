@@ -1,0 +1,69 @@
+// Endpoints in one process that reach each other by name: no sockets, one thread, the same order in every run.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "rti/transport/transport.h"
+
+namespace rink::rti {
+
+class InProcessEndpoint;
+
+/// The air between endpoints; must outlive them. Bytes sent are there at the receiver's next poll. One thread for all.
+class InProcessNetwork {
+ public:
+  explicit InProcessNetwork(std::size_t queue_max = 64u << 20) : queue_max_(queue_max) {}
+
+ private:
+  friend class InProcessEndpoint;
+  std::unordered_map<std::string, InProcessEndpoint*> listeners_;
+  std::size_t queue_max_;  ///< bytes that a receiver may leave unread per connection
+};
+
+/// One federate's or the RTI's end. `poll` never waits: what can happen has happened.
+class InProcessEndpoint final : public Transport {
+ public:
+  explicit InProcessEndpoint(InProcessNetwork& network) : network_(network) {}
+  ~InProcessEndpoint() override;
+  InProcessEndpoint(const InProcessEndpoint&) = delete;
+  InProcessEndpoint& operator=(const InProcessEndpoint&) = delete;
+
+  /// Others may connect to `name` from now on. Throws TransportError if the name is taken.
+  void listen(const std::string& name);
+  /// `on_open` follows in the next poll, or `on_close` with `refused` if nobody listens.
+  ConnectionId connect(const std::string& name);
+
+  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
+  void send(ConnectionId connection, std::span<const Bytes> parts) override;
+  void close(ConnectionId connection) override;
+  TransportCounters counters(ConnectionId connection) const override;
+
+ private:
+  enum class EventKind : std::uint8_t { open, bytes, close };
+  struct Event {
+    EventKind kind;
+    ConnectionId connection;
+    CloseReason reason = CloseReason::closed_by_peer;
+    std::size_t size = 0;  ///< of `bytes`, in the order of `incoming`
+  };
+  struct Line {
+    InProcessEndpoint* peer = nullptr;  ///< null once closed
+    ConnectionId peer_connection = 0;
+    std::vector<std::byte> incoming;    ///< sent by the peer, not yet polled
+    TransportCounters counters;
+  };
+  void shut(ConnectionId connection, CloseReason reason, CloseReason peer_reason);
+
+  InProcessNetwork& network_;
+  std::string name_;
+  std::vector<Line> lines_;    ///< by connection
+  std::vector<Event> events_, reporting_;
+  std::vector<std::byte> delivering_;
+};
+
+}  // namespace rink::rti
