@@ -1,0 +1,27 @@
+// Where and how figures were taken, so that others can judge and repeat them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "loadgen/histogram.h"
+
+namespace rink::loadgen {
+
+/// Facts as (name, text), in the order in which they are shown.
+struct Provenance {
+  std::vector<std::pair<std::string, std::string>> facts;
+};
+
+/// How late this machine wakes a sleeper: a thousand sleeps of 0.2 ms, taking about 0.3 s. Latencies near its p99 are noise.
+Histogram wake_up_lateness();
+
+/// The machine (processor, kernel), the program (compiler, command line), the time, and the timer's calibration.
+Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups);
+
+/// The facts as an object, in their order.
+nlohmann::ordered_json to_json(const Provenance& provenance);
+
+}  // namespace rink::loadgen

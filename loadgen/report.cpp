@@ -1,0 +1,233 @@
+// Puts plots, tables and provenance on one page.
+#include "loadgen/report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "loadgen/summary.h"
+#include "loadgen/svg_plot.h"
+
+namespace rink::loadgen {
+namespace {
+
+// Line colours are Okabe and Ito's colour-blind-safe set (2008), lightened for the dark page; markers differ in shape as well.
+constexpr const char* style_sheet = R"css(
+:root{--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--s0:#0072b2;--s1:#d55e00;--s2:#008a63;--s3:#b3498a;--s4:#996600;--s5:#3d7ea6;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9}
+@media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#9ccbe8;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9}}
+*{box-sizing:border-box}body{margin:0 auto;max-width:76rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
+h1{font-size:1.6rem;margin:0 0 .2rem}h2{font-size:1.15rem;margin:2rem 0 .5rem}p{margin:.3rem 0;max-width:60rem}.faint{color:var(--faint)}.warn{color:var(--warn);font-weight:600}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(26rem,1fr));gap:1rem}.small{grid-template-columns:repeat(auto-fit,minmax(17rem,1fr))}
+figure{margin:0;padding:.8rem;background:var(--card);border-radius:.5rem;break-inside:avoid}svg{width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:var(--faint)}
+text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-size:14px}.axis{fill:var(--faint)}.middle{text-anchor:middle}.end{text-anchor:end}text.small{font-size:10.5px}.label{font-weight:600}
+.grid{stroke:var(--grid);stroke-width:1}.base{stroke:var(--faint);stroke-width:1}.line{fill:none;stroke-width:2}.whisker{stroke-width:1.5;opacity:.6}.mark{stroke:var(--card);stroke-width:1}
+.line.s0,.whisker.s0{stroke:var(--s0)}.line.s1,.whisker.s1{stroke:var(--s1)}.line.s2,.whisker.s2{stroke:var(--s2)}.line.s3,.whisker.s3{stroke:var(--s3)}.line.s4,.whisker.s4{stroke:var(--s4)}.line.s5,.whisker.s5{stroke:var(--s5)}
+.mark.s0,.label.s0{fill:var(--s0)}.mark.s1,.label.s1{fill:var(--s1)}.mark.s2,.label.s2{fill:var(--s2)}.mark.s3,.label.s3{fill:var(--s3)}.mark.s4,.label.s4{fill:var(--s4)}.mark.s5,.label.s5{fill:var(--s5)}
+.p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}.key{display:inline-block;margin-right:1.2rem;font-weight:600}.key svg{display:inline-block;width:12px;height:12px;margin-right:.35rem;vertical-align:-1px}
+.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid var(--grid);white-space:nowrap}th{color:var(--faint);font-weight:600;vertical-align:bottom}
+td.text,th.text{text-align:left}td.wrap{white-space:normal;text-align:left}tr.first td{border-top:2px solid var(--grid)}td.best{font-weight:700}dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem}dt{color:var(--faint)}dd{margin:0;overflow-wrap:anywhere}
+pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;font-size:.85rem}@media print{body{max-width:none;padding:0;font-size:11px}figure,pre{border:1px solid var(--grid)}.scroll{overflow:visible}table{font-size:8px}th,td{padding:.15rem .3rem}}
+)css";
+
+/// Mode, policy and scheme: what one line of a plot stands for.
+std::string series_name(const SummaryRow& row, bool names_mode, bool names_policy) {
+  return row.scheme + (names_policy ? ", " + row.policy : "") + (names_mode ? ", " + row.mode : "");
+}
+
+/// The rows together with how their lines are called and drawn.
+class Chart {
+ public:
+  explicit Chart(std::span<const RunRecord> runs) : rows_(summarise(runs)) {
+    std::set<std::string> modes, policies;
+    for (const SummaryRow& row : rows_) {
+      modes.insert(row.mode);
+      policies.insert(row.policy);
+      clients_.insert(row.clients);
+    }
+    for (const SummaryRow& row : rows_) {
+      const std::string name = series_name(row, modes.size() > 1, policies.size() > 1);
+      if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+      row_names_.push_back(name);
+    }
+  }
+
+  const std::vector<SummaryRow>& rows() const { return rows_; }
+  const std::set<std::uint32_t>& clients() const { return clients_; }
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// The row of line `series` at `clients`, or null.
+  const SummaryRow* row(std::size_t series, std::uint32_t clients) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (row_names_[i] == names_[series] && rows_[i].clients == clients) return &rows_[i];
+    }
+    return nullptr;
+  }
+
+ private:
+  std::vector<SummaryRow> rows_;
+  std::set<std::uint32_t> clients_;
+  std::vector<std::string> names_, row_names_;
+};
+
+std::string figure_of(const std::string& svg, const std::string& caption = "") {
+  return "<figure>\n" + svg + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") + "</figure>\n";
+}
+
+std::string bytes_plot(const Chart& chart, const char* figure, const std::string& title, const std::string& caption) {
+  LinePlot plot{title, "clients", "bytes per client per second", {}, {}, true, true, true, 640.0, 400.0, {}, {}};
+  for (const std::uint32_t clients : chart.clients()) plot.x_ticks.push_back({clients, std::to_string(clients)});
+  for (std::size_t series = 0; series < chart.names().size(); ++series) {
+    Series line{chart.names()[series], series, {}};
+    for (const std::uint32_t clients : chart.clients()) {
+      const SummaryRow* row = chart.row(series, clients);
+      if (!row || !row->of(figure).mean) continue;
+      const Statistic& bytes = row->of(figure);
+      line.points.push_back({static_cast<double>(clients), *bytes.mean, *bytes.min, *bytes.max});
+    }
+    plot.series.push_back(line);
+  }
+  return figure_of(to_svg(plot), caption);
+}
+
+std::string cost_plot(const Chart& chart, double tick_rate_hz) {
+  StackedBars plot{"Server time per tick, by part", "clients", "us per tick", {"physics", "filter", "send"}, {}, 640.0, 400.0};
+  for (const std::uint32_t clients : chart.clients()) {
+    StackedBars::Group group{std::to_string(clients), {}};
+    for (std::size_t series = 0; series < chart.names().size(); ++series) {
+      const SummaryRow* row = chart.row(series, clients);
+      if (!row) continue;
+      StackedBars::Bar bar{chart.names()[series], {}};
+      for (const char* part : {"physics_us_per_tick", "filter_us_per_tick", "send_us_per_tick"}) bar.parts.push_back(row->of(part).mean.value_or(0.0));
+      group.bars.push_back(bar);
+    }
+    plot.groups.push_back(group);
+  }
+  return figure_of(to_svg(plot), "Lower is better; a tick has " + short_number(1e6 / tick_rate_hz) + " us.");
+}
+
+/// The five percentiles of one latency for each client count, all on one scale.
+std::string percentile_plots(const Chart& chart, const std::string& latency) {
+  static constexpr const char* parts[] = {"_p50", "_p90", "_p99", "_p999", "_max"};
+  std::vector<LinePlot> plots;
+  double low = 1e300, high = 0.0;
+  for (const std::uint32_t clients : chart.clients()) {
+    LinePlot plot{std::to_string(clients) + (clients == 1 ? " client" : " clients"), "percentile", "ms", {}, {}, false, true, false, 320.0, 270.0, {}, {}};
+    for (int part = 0; part < 5; ++part) plot.x_ticks.push_back({part, std::string(part == 3 ? "p99.9" : parts[part] + 1)});
+    for (std::size_t series = 0; series < chart.names().size(); ++series) {
+      const SummaryRow* row = chart.row(series, clients);
+      Series line{chart.names()[series], series, {}};
+      for (int part = 0; row && part < 5; ++part) {
+        const Statistic& value = row->of((latency + parts[part]).c_str());
+        if (!value.mean || *value.mean <= 0.0) continue;
+        line.points.push_back({static_cast<double>(part), *value.mean, 0.0, 0.0});
+        low = std::min(low, *value.mean);
+        high = std::max(high, *value.mean);
+      }
+      plot.series.push_back(line);
+    }
+    plots.push_back(plot);
+  }
+  std::string html = "<div class=\"plots small\">\n";
+  for (LinePlot& plot : plots) {
+    if (high > 0.0) plot.y_low = low, plot.y_high = high;
+    html += figure_of(to_svg(plot));
+  }
+  return html + "</div>\n";
+}
+
+std::string colour_key(const Chart& chart) {
+  static constexpr const char* shapes[] = {"<circle cx=\"6\" cy=\"6\" r=\"5\"", "<rect x=\"1.5\" y=\"1.5\" width=\"9\" height=\"9\"", "<path d=\"M6 1l5 9.5h-10z\""};
+  std::string html = "<p>";
+  for (std::size_t series = 0; series < chart.names().size(); ++series) {
+    html += std::string("<span class=\"key\"><svg viewBox=\"0 0 12 12\">") + shapes[series % 3] + " class=\"mark s" + std::to_string(series % 6) + "\"/></svg>" +
+            escaped(chart.names()[series]) + "</span>\n";
+  }
+  return html + "</p>\n";
+}
+
+std::string cell(const std::optional<double>& value, int decimals, double scale = 1.0, const char* classes = "") {
+  if (!value) return "<td>\xE2\x80\x93</td>";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, *value * scale);
+  return std::string("<td class=\"") + classes + "\">" + text + "</td>";
+}
+
+std::string table_row(const RunRecord& run, bool is_first_of_group) {
+  std::string html = std::string("<tr") + (is_first_of_group ? " class=\"first\"" : "") + "><td>" + std::to_string(run.cell.clients) + "</td><td class=\"text\">" +
+                     escaped(run.cell.scheme) + "</td><td class=\"text\">" + escaped(run.cell.mode) + "</td><td class=\"text\">" + escaped(run.cell.policy) +
+                     "</td><td>" + std::to_string(run.cell.seed) + "</td>";
+  html += cell(run.down_bytes_per_client_per_s, 2, 1e-3) + cell(run.up_bytes_per_client_per_s, 2, 1e-3) + cell(run.wire_bytes_per_client_per_s, 2, 1e-3);
+  html += cell(run.update_age_ms.p50, 2) + cell(run.update_age_ms.p99, 2) + cell(run.key_to_effect_ms.p50, 2) + cell(run.key_to_effect_ms.p99, 2);
+  html += cell(run.ticks_on_time_fraction, 2, 100.0) + cell(run.physics_us_per_tick, 1) + cell(run.filter_us_per_tick, 1) + cell(run.send_us_per_tick, 1);
+  html += "<td class=\"text\">" + escaped(run.state_hash) + "</td><td class=\"text\">" + (run.valid ? "yes" : "<span class=\"warn\">no</span>") + "</td></tr>\n";
+  return html;
+}
+
+std::string all_cells(std::span<const RunRecord> runs) {
+  std::string html =
+      "<h2>All runs</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">scheme</th><th class=\"text\">mode</th><th "
+      "class=\"text\">policy</th><th>seed</th><th>down<br/>kB/s/client</th><th>up<br/>kB/s/client</th><th>wire<br/>kB/s/client</th><th>update age<br/>p50 "
+      "ms</th><th>p99 ms</th><th>key to effect<br/>p50 ms</th><th>p99 ms</th><th>on time<br/>%</th><th>physics<br/>us/tick</th><th>filter<br/>us/tick</th>"
+      "<th>send<br/>us/tick</th><th class=\"text\">state hash</th><th class=\"text\">valid</th></tr></thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < runs.size(); ++i) html += table_row(runs[i], i > 0 && runs[i].cell.clients != runs[i - 1].cell.clients);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string invalid_runs(std::span<const RunRecord> runs) {
+  std::string rows;
+  for (const RunRecord& run : runs) {
+    if (!run.valid) rows += "<tr><td class=\"text\">" + escaped(name_of(run.cell)) + "</td><td class=\"wrap\">" + escaped(run.why_invalid) + "</td></tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h2 class=\"warn\">Runs that do not count</h2>\n<p>They are in the table above but in no mean and no plot.</p>\n<table><tbody>\n" + rows +
+         "</tbody></table>\n";
+}
+
+std::string agreement_text(std::span<const RunRecord> runs) {
+  const Agreement agreement = agreement_of(runs);
+  if (agreement.games == 0) return "<p class=\"faint\">No two runs were given the same keys, so no state hashes can be compared.</p>\n";
+  if (agreement.differing.empty()) return "<p>All cells of one seed ended in the same state hash: <b>yes</b>. The filters changed the traffic, not the game.</p>\n";
+  std::string html = "<p class=\"warn\">All cells of one seed ended in the same state hash: NO.</p>\n<ul>\n";
+  for (const std::string& difference : agreement.differing) html += "<li>" + escaped(difference) + "</li>\n";
+  return html + "</ul>\n";
+}
+
+std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
+  const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
+  char text[512];
+  std::snprintf(text, sizeof text, "Scene %s, %s population, %g Hz, %g s measured after %g s of warm-up, each client sees %g %% of the field; %zu of %zu cells run, %zu valid.",
+                experiment.scene.c_str(), experiment.population == Population::fixed ? "fixed" : "per-client", experiment.tick_rate_hz, experiment.duration_s,
+                experiment.warm_up_s, experiment.view_fraction * 100.0, runs.size(), cells_of(experiment).size(), static_cast<std::size_t>(valid));
+  return text;
+}
+
+std::string provenance_text(const Experiment& experiment, const Provenance& provenance) {
+  std::string html = "<h2>Provenance</h2>\n<dl>\n";
+  for (const auto& [name, text] : provenance.facts) html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd>\n";
+  return html + "</dl>\n<p class=\"faint\">The experiment:</p>\n<pre>" + escaped(experiment.text) + "</pre>\n";
+}
+
+constexpr const char* definitions =
+    "<h2>Definitions</h2>\n<p class=\"faint\">Payload is what the processes hand to TCP; wire bytes are payload of both directions plus 66 bytes per segment (Ethernet 14, "
+    "IPv4 20, TCP with timestamps 32; a segment carries up to 1,448 bytes; acknowledgements are not counted). Latencies count from the instant an action was "
+    "due. A percentile is shown only if ten or more samples lie beyond it, and averaged only if every valid replication has it.</p>\n";
+
+}  // namespace
+
+std::string report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance) {
+  const Chart chart(runs);
+  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>" +
+                     escaped(experiment.name) + ": interest management compared</title>\n<style>" + style_sheet + "</style>\n</head>\n<body>\n";
+  html += "<h1>" + escaped(experiment.name) + ": interest management compared</h1>\n<p class=\"faint\">" + escaped(setting_text(experiment, runs)) + "</p>\n";
+  html += agreement_text(runs);
+  html += "<h2>Traffic and server time</h2>\n<div class=\"plots\">\n";
+  html += bytes_plot(chart, "down_bytes_per_client_per_s", "Payload to each client", "Lower is better. Mean over replications; whiskers span the lowest and highest.");
+  html += bytes_plot(chart, "wire_bytes_per_client_per_s", "On the wire, both directions, with headers", "What the network carries for one client.");
+  html += cost_plot(chart, experiment.tick_rate_hz) + "</div>\n";
+  html += "<h2>Update age</h2>\n<p class=\"faint\">From the simulated instant that a position shows to the client's receipt of it.</p>\n" + colour_key(chart) + percentile_plots(chart, "update_age_ms");
+  html += "<h2>Key to effect</h2>\n<p class=\"faint\">From the instant a key was due to the client's own bat answering in its mirror.</p>\n" + colour_key(chart) + percentile_plots(chart, "key_to_effect_ms");
+  html += all_cells(runs) + invalid_runs(runs) + definitions + provenance_text(experiment, provenance);
+  return html + "</body>\n</html>\n";
+}
+
+}  // namespace rink::loadgen

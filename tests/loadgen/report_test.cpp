@@ -1,0 +1,127 @@
+// The page and its plots: well-formed, complete, and safe against text from outside.
+#include "loadgen/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "canned_reports.h"
+#include "loadgen/svg_plot.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The first tag that closes what was not open or that nothing closes, or an empty text.
+std::string unbalanced(const std::string& html) {
+  std::vector<std::string> open;
+  for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+    const std::size_t end = html.find('>', at);
+    if (end == std::string::npos) return html.substr(at, 40);
+    const std::string tag = html.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" /\n", tag[0] == '/' ? 1 : 0));
+    if (tag[0] == '!' || tag.back() == '/' || name == "meta") continue;
+    if (tag[0] != '/') {
+      open.push_back(name);
+    } else if (open.empty() || "/" + open.back() != name) {
+      return tag;
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? "" : open.back();
+}
+
+std::vector<RunRecord> some_runs() {
+  std::vector<RunRecord> runs;
+  for (const std::uint64_t seed : {1, 2}) {
+    for (const std::uint32_t clients : {10u, 100u}) {
+      for (const char* scheme : {"none", "grid", "region"}) {
+        const Cell cell{"client-server", scheme, "periodic", clients, seed};
+        RunRecord run = record_for(small_experiment(), cell);
+        judge(run, canned_server_report(cell), canned_bots_report(cell));
+        run.state_hash = "hash" + std::to_string(seed) + scheme + std::to_string(clients);
+        runs.push_back(run);
+      }
+    }
+  }
+  return runs;
+}
+
+const Provenance provenance{{{"kernel", "Linux <6>"}, {"command", "rink-compare 'a & b'"}}};
+
+TEST(Report, IsWellFormedAndHoldsEveryCell) {
+  const auto runs = some_runs();
+  const std::string html = report_of(small_experiment(), runs, provenance);
+  EXPECT_EQ(unbalanced(html), "");
+  for (const RunRecord& run : runs) EXPECT_THAT(html, HasSubstr(run.state_hash));
+}
+
+TEST(Report, NeedsNeitherNetworkNorScript) {
+  const std::string html = report_of(small_experiment(), some_runs(), provenance);
+  EXPECT_THAT(html, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("src=")), Not(HasSubstr("href=")), Not(HasSubstr("url(")), Not(HasSubstr("@import"))));
+}
+
+TEST(Report, TextFromOutsideIsEscaped) {
+  auto runs = some_runs();
+  runs[0].valid = false;
+  runs[0].why_invalid = "said: <script>alert('x')</script> & died\x1b[31m";
+  runs[1].cell.scheme = "<b>\"grid\"";
+  Experiment experiment = small_experiment();
+  experiment.name = "</title><i>";
+  experiment.text = "name = \"</pre>\"";
+  const std::string html = report_of(experiment, runs, provenance);
+  EXPECT_EQ(unbalanced(html), "");
+  EXPECT_THAT(html, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<b>\"")), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(html, AllOf(HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"), HasSubstr("Linux &lt;6&gt;"), HasSubstr("a &amp; b")));
+}
+
+TEST(Report, InvalidRunsAreListedWithTheirReasonAndDisagreementIsShown) {
+  auto runs = some_runs();
+  runs[3].valid = false;
+  runs[3].why_invalid = "the bots fell asleep";
+  const std::string html = report_of(small_experiment(), runs, provenance);
+  EXPECT_THAT(html, AllOf(HasSubstr("Runs that do not count"), HasSubstr("the bots fell asleep"), HasSubstr("same state hash: NO")));
+  for (RunRecord& run : runs) run.state_hash = "one-and-the-same";
+  EXPECT_THAT(report_of(small_experiment(), runs, provenance), HasSubstr("same state hash: <b>yes</b>"));
+}
+
+TEST(Report, WithoutAnyFigureThereIsStillAPage) {
+  EXPECT_EQ(unbalanced(report_of(small_experiment(), {}, provenance)), "");
+  std::vector<RunRecord> runs{record_for(small_experiment(), {"client-server", "none", "periodic", 1, 1})};
+  runs[0].why_invalid = "crashed";
+  const std::string html = report_of(small_experiment(), runs, provenance);
+  EXPECT_EQ(unbalanced(html), "");
+  EXPECT_THAT(html, AllOf(HasSubstr("crashed"), Not(HasSubstr("=\"nan")), Not(HasSubstr("=\"-nan")), Not(HasSubstr("=\"inf"))));
+}
+
+TEST(Plot, NumbersAreShort) {
+  EXPECT_EQ(short_number(0.0), "0");
+  EXPECT_EQ(short_number(0.25), "0.25");
+  EXPECT_EQ(short_number(999.0), "999");
+  EXPECT_EQ(short_number(1000.0), "1 k");
+  EXPECT_EQ(short_number(1'234'567.0), "1.23 M");
+}
+
+TEST(Plot, ALogarithmicAxisPutsEqualRatiosAtEqualDistances) {
+  LinePlot plot{"t", "x", "y", {{10, "10"}, {100, "100"}, {1000, "1000"}}, {{"a", 0, {{10, 5, 0, 0}, {100, 50, 0, 0}, {1000, 500, 0, 0}}}}, true, true, true, 640, 400, {}, {}};
+  const std::string svg = to_svg(plot);
+  std::vector<double> xs, ys;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+    xs.push_back(std::stod(svg.substr(svg.find("cx=\"", at) + 4)));
+    ys.push_back(std::stod(svg.substr(svg.find("cy=\"", at) + 4)));
+  }
+  ASSERT_EQ(xs.size(), 3u);
+  EXPECT_NEAR(xs[1] - xs[0], xs[2] - xs[1], 0.2);
+  EXPECT_NEAR(ys[1] - ys[0], ys[2] - ys[1], 0.2);
+  plot.series[0].points[1].y = 0.0;  // not on a logarithmic axis
+  EXPECT_EQ(unbalanced(to_svg(plot)), "");
+  EXPECT_THAT(to_svg(plot), AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
