@@ -15,6 +15,9 @@ struct Region {
   friend bool operator==(const Region&, const Region&) = default;
 };
 
+/// True if `region` is finite and not inverted, as every filter asserts of what it is given. For the edge, where regions come from strangers.
+bool is_valid(const Region& region);
+
 /// Small dense numbers chosen by the caller; they may be used again after removal.
 using Entity = std::uint32_t;
 using Subscriber = std::uint32_t;
@@ -31,12 +34,14 @@ struct Change {
 
 /// What a filter did since it was made; the proof that what did not move cost nothing.
 struct FilterCounters {
-  std::uint64_t regions_moved = 0;   ///< regions handed in that differed from what they were
-  std::uint64_t pairs_tested = 0;    ///< (subscriber, entity) pairs looked at one by one
-  std::uint64_t changes = 0;         ///< transitions reported
+  std::uint64_t regions_moved = 0;  ///< regions handed in that differed, to the scheme, from what they were (`grid`: other cells)
+  std::uint64_t pairs_tested = 0;   ///< (subscriber, entity) pairs looked at one by one
+  std::uint64_t changes = 0;        ///< transitions reported
 };
 
 /// Decides which entities matter to which subscribers, and says only what changed. Pure: no clock, no I/O; the same calls give the same changes.
+/// "Net" compares the last match with this one: who enters and leaves again in between is not mentioned. An id that is removed and added again is a new
+/// entity (or subscriber): it owes no `left` and has its `entered` reported afresh.
 class Filter {
  public:
   virtual ~Filter() = default;
