@@ -13,7 +13,7 @@ struct WarpedTime {
   double e;  ///< exp(-g t)
 };
 
-/// `elapsed` [s] at least 0, `drag` [1/s] at least 0. Relative error below 4 ulp, also where g t is small and (t - s)/g would cancel.
+/// `elapsed` [s] and `drag` [1/s] at least 0. s and q are within 4 ulp, also where g t is small and (t - s)/g would cancel; e is within 1e-16.
 WarpedTime warp(double elapsed, double drag);
 
 /// The state of a body at its last event, and the law it has followed since; each axis has its own acceleration and drag, for a body in rest contact shares those of

@@ -1,0 +1,201 @@
+// Bodies coming and going, the grid, and the event loop.
+#include "game/physics/engine.h"
+
+#include <bit>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace rink::physics {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}
+
+Engine::Engine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag) {
+  assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
+  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
+  tolerance_ = 0x1p-52 * (spec.field.length + spec.field.width);
+  grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
+}
+
+Motion Engine::motion(std::uint32_t body) const {
+  const Body& b = bodies_[body];
+  return {b.time, {b.x, b.y}, {b.vx, b.vy}, laws_[body].acceleration, laws_[body].drag};
+}
+
+double Engine::reach_of(std::uint32_t body) const { return bodies_[body].radius + builds_[body].half_extent.maxCoeff(); }
+
+RoundedBox Engine::shape_of(std::uint32_t a, std::uint32_t b) const {
+  return {builds_[a].half_extent + builds_[b].half_extent, bodies_[a].radius + bodies_[b].radius};
+}
+
+BodyId Engine::add(BodyKind kind, const Vector2& position, const Vector2& velocity, double radius, const Vector2& half_extent, double mass, MaterialId material, Half half) {
+  assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
+  assert(is_free(position, {half_extent, radius}));
+  const auto body = static_cast<std::uint32_t>(bodies_.size());
+  bodies_.push_back({position.x(), position.y(), velocity.x(), velocity.y(), now_, radius, 0, kind, material, 0, no_mouth});
+  builds_.push_back({mass, kind == BodyKind::post ? 0.0 : 1.0 / mass, half_extent, Vector2(0.0, 0.0), half});
+  slots_.push_back({infinity, infinity, partner::none, 0, 0, 0});
+  laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
+  rhythms_.emplace_back();
+  jams_.push_back(0);
+  write_law(body);
+  enter_mouth_if_inside(body);
+  const std::uint32_t count = body + 1;
+  grid_.resize(count);
+  queue_.resize(count);
+  require_prediction(body);
+  if (count > grid_capacity_ || reach_of(body) > reach_) {
+    reach_ = std::max(reach_, reach_of(body));
+    grid_capacity_ = std::max(64u, 2 * count);
+    rebuild_grid();
+  } else {
+    grid_.insert(body, position.x(), position.y());
+  }
+  return {body};
+}
+
+void Engine::rebuild_grid() {
+  grid_.rebuild(spec_.field.length, spec_.field.width, 2.0 * reach_, static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+    if (is_gone(body)) continue;
+    const Vector2 position = at(body, now_).position;
+    grid_.insert(body, position.x(), position.y());
+    require_prediction(body);
+  }
+}
+
+void Engine::enter_mouth_if_inside(std::uint32_t body) {
+  Body& b = bodies_[body];
+  b.mouth = no_mouth;
+  if (b.kind != BodyKind::puck || spec_.field.goal_width == 0.0) return;
+  if (b.x < b.radius) b.mouth = left_mouth;
+  if (b.x > spec_.field.length - b.radius) b.mouth = right_mouth;
+}
+
+void Engine::require_prediction(std::uint32_t body) {
+  if ((bodies_[body].flags & pending) != 0) return;
+  bodies_[body].flags |= pending;
+  pending_.push_back(body);
+}
+
+void Engine::remove(std::uint32_t body) {
+  Body& b = bodies_[body];
+  if ((b.flags & removed) != 0) return;
+  if ((b.flags & out_of_play) == 0) {
+    wake(body, now_);
+    for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, now_);
+    rebase(body, now_);
+    grid_.remove(body);
+    queue_.set(body, infinity, body, body);
+  }
+  b.flags |= removed;
+  settle();
+}
+
+void Engine::place(std::uint32_t puck, const Vector2& position, const Vector2& velocity) {
+  Body& b = bodies_[puck];
+  assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() && velocity.allFinite());
+  assert(is_free(position, {Vector2(0.0, 0.0), b.radius}));
+  b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
+  b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
+  enter_mouth_if_inside(puck);
+  grid_.insert(puck, b.x, b.y);
+  touch(puck);
+  settle();
+}
+
+void Engine::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
+  assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
+  if (builds_[bat].thrust == acceleration) return;
+  if (is_gone(bat)) {
+    builds_[bat].thrust = acceleration;
+    return;
+  }
+  ++counters_.thrust_changes;
+  wake(bat, now_);
+  rebase_companions(bat, now_);
+  builds_[bat].thrust = acceleration;
+  for (int axis = 0; axis < 2; ++axis) {
+    if ((bodies_[bat].flags & held_along(axis)) != 0) share(axis, companions(bat, held_along(axis)), now_);
+    else set_law(bat, axis, acceleration[axis], own_drag(bat));
+  }
+  settle();
+}
+
+std::optional<Goal> Engine::advance(double until) {
+  assert(until >= now_ && until < infinity);
+  if (2 * pending_.size() > bodies_.size()) rebuild_grid();
+  for (const std::uint32_t body : pending_) {
+    bodies_[body].flags = static_cast<std::uint8_t>(bodies_[body].flags & ~pending);
+    if (!is_gone(body)) predict(body);
+  }
+  pending_.clear();
+  for (std::uint32_t body = queue_.first(until); body != EventQueue::none; body = queue_.first(until)) {
+    process(body, queue_.time(body));
+    if (goal_) return std::exchange(goal_, std::nullopt);
+  }
+  now_ = until;
+  return std::nullopt;
+}
+
+void Engine::process(std::uint32_t body, double time) {
+  now_ = std::max(now_, time);
+  const Slot& slot = slots_[body];
+  if (slot.crossing_time < slot.impact_time) return cross_cell(body);
+  const Partner p = slot.partner;
+  if (is_body(p) && bodies_[p].version != slot.partner_version) {
+    ++counters_.stale_events;
+    return predict(body);
+  }
+  if (p == partner::goal_line) score(body, time);
+  else if (p == partner::release) release(body, time);
+  else if (p == partner::mouth_in || p == partner::mouth_out) {
+    rebase_companions(body, time);
+    bodies_[body].mouth = p == partner::mouth_out ? no_mouth : bodies_[body].x < 0.5 * spec_.field.length ? left_mouth : right_mouth;
+  } else collide(body, p, time);
+  settle();
+}
+
+void Engine::settle() {
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    Body& b = bodies_[touched_[i]];
+    b.flags = static_cast<std::uint8_t>(b.flags & ~touched);
+    if (!is_gone(touched_[i])) predict(touched_[i]);
+  }
+  touched_.clear();
+}
+
+void Engine::cross_cell(std::uint32_t body) {
+  ++counters_.crossings;
+  const Slot& slot = slots_[body];
+  const int dx = slot.columns, dy = slot.rows;
+  grid_.move(body, dx, dy);
+  if ((bodies_[body].flags & curved) == 0) {
+    // Only the three cells that came into sight: the earliest impact in the others is known and stays the earliest.
+    const auto visit = [&](std::uint32_t other) {
+      if (other != body) predict_pair(body, other);
+    };
+    grid_.around(grid_.column_of(body), grid_.row_of(body), dx == 0 ? -1 : dx, dx == 0 ? 1 : dx, dy == 0 ? -1 : dy, dy == 0 ? 1 : dy, visit);
+    predict_crossing(body);
+    enqueue(body);
+  } else {
+    predict(body);
+  }
+}
+
+void Engine::score(std::uint32_t body, double time) {
+  ++counters_.goals;
+  wake(body, time);
+  for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
+  rebase(body, time);
+  Body& b = bodies_[body];
+  b.flags |= out_of_play;
+  b.mouth = no_mouth;
+  grid_.remove(body);
+  queue_.set(body, infinity, body, body);
+  goal_ = Goal{time, {body}, b.x < 0.5 * spec_.field.length ? End::left : End::right};
+}
+
+}  // namespace rink::physics

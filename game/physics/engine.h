@@ -1,0 +1,210 @@
+// The event loop behind World: bodies at their own last events, one earliest event per body, rest contacts and pressed clusters.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "game/physics/cell_grid.h"
+#include "game/physics/event_queue.h"
+#include "game/physics/impact_time.h"
+#include "game/physics/world.h"
+
+namespace rink::physics {
+
+/// Time scale of pressed contact [s]: a body that suffers `impact_count_max` slow impacts within it is taken out of its contacts at once (docs/physics.md, "Degenerate contact").
+constexpr double contact_time = 5e-4;
+/// Pressed contacts that close more slowly than this come to rest [m/s].
+constexpr double rest_speed = 20.0 * contact_time;
+/// Bodies nearer than this take part in a hop [m].
+constexpr double cluster_gap = 2e-6;
+
+/// A contact partner: a body, or one of the fixed parts of the field.
+using Partner = std::uint32_t;
+namespace partner {
+constexpr Partner none = 0xffffffff;
+constexpr Partner field_parts = 0xfffffff0;  ///< every partner from here on is a part of the field
+constexpr Partner wall_left = field_parts + 0, wall_right = field_parts + 1, wall_bottom = field_parts + 2, wall_top = field_parts + 3;
+constexpr Partner halfway = field_parts + 4;
+constexpr Partner edge_left_low = field_parts + 5, edge_left_high = field_parts + 6, edge_right_low = field_parts + 7, edge_right_high = field_parts + 8;
+constexpr Partner mouth_in = field_parts + 9, mouth_out = field_parts + 10;  ///< a puck passes between the edges of a goal
+constexpr Partner goal_line = field_parts + 11;
+constexpr Partner release = field_parts + 12;  ///< a rest contact ends
+}  // namespace partner
+
+class Engine {
+ public:
+  explicit Engine(const WorldSpec& spec);
+
+  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, double radius, const Vector2& half_extent, double mass, MaterialId material, Half half);
+  void remove(std::uint32_t body);
+  void set_thrust(std::uint32_t bat, const Vector2& acceleration);
+  void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
+  std::optional<Goal> advance(double until);
+
+  Motion motion(std::uint32_t body) const;
+  bool is_free(const Vector2& centre, const RoundedBox& shape) const;
+  double kinetic_energy() const;
+  Vector2 momentum() const;
+  double max_overlap() const;
+  std::uint64_t hash() const;
+
+ private:
+  friend class World;
+
+  enum Flag : std::uint8_t { removed = 1, out_of_play = 2, curved = 4, held_x = 8, held_y = 16, frozen = 32, touched = 64, pending = 128 };
+  static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
+  static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
+  enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
+
+  /// What an impact of two pucks reads and writes: one cache line.
+  struct alignas(64) Body {
+    double x, y, vx, vy, time, radius;
+    std::uint32_t version;
+    BodyKind kind;
+    MaterialId material;
+    std::uint8_t flags;
+    std::uint8_t mouth;
+  };
+  struct Build {
+    double mass, inverse_mass;
+    Vector2 half_extent;  // of the rectangle itself: 0 for discs
+    Vector2 thrust;
+    Half half;
+  };
+  struct Law {
+    Vector2 acceleration, drag;
+  };
+  /// How densely impacts follow each other; part of the physical history.
+  struct Rhythm {
+    double window_start = -1.0, last_hop = -1.0;
+    std::uint32_t impacts = 0, hops = 0;
+  };
+  struct Slot {
+    double impact_time, crossing_time;
+    Partner partner;
+    std::uint32_t partner_version;
+    std::int8_t columns, rows;
+  };
+  /// Rest contact along `axis`: `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
+  struct Hold {
+    Partner low, high;
+    int axis;
+    double pull_time;  // when the contact force vanishes by drag
+    double force;      // of the last solution
+  };
+  struct Contact {
+    std::uint32_t body;
+    Partner partner;
+    Gap gap;  // normal from partner to body
+  };
+  /// A contact of the cluster at hand; `body` and `partner` are places in the cluster, `fixed_place` for what cannot move.
+  struct ClusterContact {
+    std::uint32_t body, partner;
+    Vector2 normal;
+    double impulse;
+    double restitution;
+  };
+  static constexpr std::uint32_t fixed_place = 0xffffffff;
+
+  // engine.cpp: bodies and the loop
+  bool is_body(Partner p) const { return p < partner::field_parts; }
+  bool is_fixed(Partner p) const { return !is_body(p) || builds_[p].inverse_mass == 0.0; }
+  bool is_gone(std::uint32_t body) const { return (bodies_[body].flags & gone) != 0; }
+  double inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
+  Motion at(std::uint32_t body, double time) const { return motion(body).at(time); }
+  RoundedBox shape_of(std::uint32_t a, std::uint32_t b) const;
+  HalfPlane plane_of(std::uint32_t body, Partner wall) const;
+  Vector2 goal_edge(Partner edge) const;
+  double reach_of(std::uint32_t body) const;
+  void rebuild_grid();
+  void enter_mouth_if_inside(std::uint32_t body);
+  void require_prediction(std::uint32_t body);
+  void cross_cell(std::uint32_t body);
+  void process(std::uint32_t body, double time);
+  void settle();
+  void score(std::uint32_t body, double time);
+
+  // engine_state.cpp: rewriting last-event states
+  void rebase(std::uint32_t body, double time);
+  void rebase_companions(std::uint32_t body, double time);
+  void write_law(std::uint32_t body);
+  void set_law(std::uint32_t body, int axis, double acceleration, double drag);
+  double own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
+  void touch(std::uint32_t body);
+  void wake(std::uint32_t body, double time);
+
+  // engine_prediction.cpp
+  void predict(std::uint32_t body);
+  void predict_field(std::uint32_t body);
+  void predict_straight_walls(std::uint32_t body);
+  void predict_curved_walls(std::uint32_t body);
+  void predict_mouth(std::uint32_t body);
+  void predict_pair(std::uint32_t body, std::uint32_t other);
+  void predict_curved_pair(std::uint32_t body, std::uint32_t other);
+  void predict_release(std::uint32_t body);
+  void predict_crossing(std::uint32_t body);
+  void offer(std::uint32_t body, double time, Partner partner);
+  void enqueue(std::uint32_t body);
+  double real_time(double start, double warped) const;
+
+  // engine_impact.cpp
+  Contact contact(std::uint32_t body, Partner partner, double time) const;
+  Vector2 velocity_of(Partner p) const;
+  Vector2 acceleration_of(Partner p) const;
+  double restitution(std::uint32_t body, Partner partner) const;
+  void collide(std::uint32_t body, Partner partner, double time);
+  void collide_ordered(std::uint32_t body, Partner partner, double time);
+  void bounce(const Contact& contact, double approach, double restitution, double time);
+  void count_impact(std::uint32_t body, Partner partner);
+  void note_impact(std::uint32_t body, double time);
+
+  // engine_rest.cpp
+  bool can_rest(const Contact& contact) const;
+  void rest(const Contact& contact, double time);
+  void share(int axis, const std::vector<std::uint32_t>& members, double time);
+  void solve_forces(int axis, const std::vector<std::uint32_t>& members, double speed, bool only_push);
+  void share_part(int axis, const std::vector<std::uint32_t>& part, double time);
+  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, double terminal_speed, double drag, double time);
+  bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
+  bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
+  std::vector<std::uint32_t> companions(std::uint32_t body, std::uint8_t axes) const;
+  void dissolve(std::uint32_t body, int axis, double time);
+  void release(std::uint32_t body, double time);
+  double slide_time(const Hold& hold) const;
+  bool are_held(std::uint32_t a, std::uint32_t b) const;
+
+  // engine_cluster.cpp
+  bool is_pressed_hard(std::uint32_t body, Partner partner, double approach, double time) const;
+  bool hop(const Contact& contact, double approach, double time);
+  void gather(const Contact& contact, double speed_max, double time);
+  void add_contact(std::uint32_t place, Partner partner, double speed_max, double time);
+  std::uint32_t place_in_cluster(std::uint32_t body, double time);
+  bool freeze(double thrust_max);
+  void solve_cluster(double separation);
+
+  WorldSpec spec_;
+  double now_ = 0.0;
+  double tolerance_;  // rounding error of an offset [m]
+  double puck_drag_;
+  std::vector<Body> bodies_;
+  std::vector<Slot> slots_;
+  std::vector<Law> laws_;
+  std::vector<Build> builds_;
+  std::vector<Rhythm> rhythms_;
+  std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
+  std::vector<Hold> holds_;
+  CellGrid grid_;
+  EventQueue queue_;
+  double reach_ = 0.0;               // largest half extent of any body [m]
+  std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
+  std::uint32_t jam_count_ = 0;
+  std::vector<std::uint32_t> touched_, pending_, frozen_;
+  std::vector<std::uint32_t> cluster_;
+  std::vector<ClusterContact> cluster_contacts_;
+  std::vector<Vector2> cluster_velocities_;
+  std::vector<double> accelerations_;
+  std::optional<Goal> goal_;
+  Counters counters_;
+};
+
+}  // namespace rink::physics

@@ -1,0 +1,98 @@
+// What two bodies do to each other at the instant they touch.
+#include <algorithm>
+
+#include "game/physics/engine.h"
+
+namespace rink::physics {
+
+namespace {
+
+/// Pressed contact has at least this closing acceleration [m/s^2]; below it a contact counts as unpressed.
+constexpr double press_min = 1e-7;
+/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
+constexpr double separation_min = 1e-14;
+
+}  // namespace
+
+Engine::Contact Engine::contact(std::uint32_t body, Partner p, double time) const {
+  const Vector2 position = at(body, time).position;
+  if (is_body(p)) return {body, p, shape_of(body, p).gap(position - at(p, std::max(time, bodies_[p].time)).position)};
+  if (p >= partner::edge_left_low && p <= partner::edge_right_high) return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
+  return {body, p, plane_of(body, p).gap(position)};
+}
+
+Vector2 Engine::velocity_of(Partner p) const { return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0); }
+
+Vector2 Engine::acceleration_of(Partner p) const {
+  if (is_fixed(p)) return {0.0, 0.0};
+  return laws_[p].acceleration - laws_[p].drag.cwiseProduct(velocity_of(p));
+}
+
+double Engine::restitution(std::uint32_t body, Partner p) const {
+  return spec_.restitution(bodies_[body].material, is_body(p) ? bodies_[p].material : spec_.field.wall);
+}
+
+void Engine::collide(std::uint32_t body, Partner p, double time) {
+  const std::uint32_t first = is_body(p) ? std::min(body, p) : body;
+  if (is_body(p)) p = std::max(body, p);
+  if (is_body(p) && builds_[first].inverse_mass == 0.0) return collide_ordered(p, first, time);
+  collide_ordered(first, p, time);
+}
+
+void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
+  count_impact(body, p);
+  wake(body, time);
+  rebase_companions(body, time);
+  if (is_body(p)) wake(p, time), rebase_companions(p, time);
+  const Contact c = contact(body, p, time);
+  const Vector2& normal = c.gap.normal;
+  const double approach = normal.dot(velocity_of(p) - velocity_of(body)), pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
+  if (approach < rest_speed && pressing > press_min && can_rest(c)) return rest(c, time);
+  const double given_back = restitution(body, p);
+  if (approach < rest_speed || given_back < 1.0) {
+    note_impact(body, time);
+    if (!is_fixed(p)) note_impact(p, time);
+    if (is_pressed_hard(body, p, approach, time) && hop(c, approach, time)) return;
+  }
+  bounce(c, approach, given_back, time);
+}
+
+/// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding) still leaves with the least separation, or it would be found again.
+void Engine::bounce(const Contact& c, double approach, double given_back, double time) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (c.gap.normal[axis] == 0.0) continue;
+    dissolve(c.body, axis, time);
+    if (is_body(c.partner)) dissolve(c.partner, axis, time);
+  }
+  const Vector2 here = velocity_of(c.body), there = velocity_of(c.partner);
+  const double separation = std::max(given_back * approach, separation_min * (here.norm() + there.norm()));
+  const double own = inverse_mass(c.body), other = inverse_mass(c.partner);
+  const double impulse = std::max(0.0, approach + separation) / (own + other);
+  Body& b = bodies_[c.body];
+  b.vx = here.x() + impulse * own * c.gap.normal.x();
+  b.vy = here.y() + impulse * own * c.gap.normal.y();
+  if (other == 0.0) return;
+  Body& p = bodies_[c.partner];
+  p.vx = there.x() - impulse * other * c.gap.normal.x();
+  p.vy = there.y() - impulse * other * c.gap.normal.y();
+}
+
+void Engine::count_impact(std::uint32_t body, Partner p) {
+  const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind); };
+  if (!is_body(p)) ++(p >= partner::edge_left_low ? counters_.post_impacts : counters_.wall_impacts);
+  else if (is(BodyKind::post)) ++counters_.post_impacts;
+  else if (bodies_[body].kind == BodyKind::bat && bodies_[p].kind == BodyKind::bat) ++counters_.bat_bat_impacts;
+  else if (is(BodyKind::bat)) ++counters_.bat_impacts;
+  else ++counters_.disc_impacts;
+}
+
+void Engine::note_impact(std::uint32_t body, double time) {
+  Rhythm& rhythm = rhythms_[body];
+  if (time - rhythm.window_start > contact_time) {
+    rhythm.window_start = time;
+    rhythm.impacts = 0;
+  }
+  ++rhythm.impacts;
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,199 @@
+// The earliest event of a body, from last-event states alone.
+#include "game/physics/engine.h"
+
+#include <limits>
+
+namespace rink::physics {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}
+
+/// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
+void Engine::offer(std::uint32_t body, double time, Partner p) {
+  Slot& slot = slots_[body];
+  if (time > slot.impact_time) return;
+  if (time == slot.impact_time && std::minmax(body, p) >= std::minmax(body, slot.partner)) return;
+  slot.impact_time = time;
+  slot.partner = p;
+  slot.partner_version = is_body(p) ? bodies_[p].version : 0;
+}
+
+void Engine::enqueue(std::uint32_t body) {
+  const Slot& slot = slots_[body];
+  if (slot.crossing_time < slot.impact_time) queue_.set(body, slot.crossing_time, body, body);
+  else queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
+}
+
+void Engine::predict(std::uint32_t body) {
+  if (bodies_[body].kind == BodyKind::post) return;
+  slots_[body].impact_time = infinity;
+  slots_[body].partner = partner::none;
+  predict_field(body);
+  const auto visit = [&](std::uint32_t other) {
+    if (other != body) predict_pair(body, other);
+  };
+  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, visit);
+  predict_crossing(body);
+  enqueue(body);
+}
+
+void Engine::predict_field(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  if ((b.flags & held) != 0) predict_release(body);
+  if ((b.flags & curved) != 0) predict_curved_walls(body);
+  else if (b.vx != 0.0 || b.vy != 0.0) predict_straight_walls(body);
+  if (b.mouth != no_mouth) predict_mouth(body);
+}
+
+/// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if it never does.
+double Engine::real_time(double start, double warped) const {
+  if (puck_drag_ == 0.0) return start + warped;
+  const double lost = puck_drag_ * warped;
+  return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
+}
+
+void Engine::predict_straight_walls(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  const Field& field = spec_.field;
+  if (b.vy != 0.0) {
+    const double gap = b.vy < 0.0 ? b.y - b.radius : field.width - b.radius - b.y;
+    offer(body, real_time(b.time, std::max(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
+  }
+  if (b.vx == 0.0 || b.mouth != no_mouth) return;
+  const double gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
+  const double warped = std::max(0.0, gap) / std::abs(b.vx);
+  const double y = b.y + b.vy * warped;
+  const bool is_open = std::abs(y - 0.5 * field.width) < 0.5 * field.goal_width;
+  offer(body, real_time(b.time, warped), is_open ? partner::mouth_in : b.vx < 0.0 ? partner::wall_left : partner::wall_right);
+}
+
+/// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must stay on the side of the normal.
+HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
+  const Field& field = spec_.field;
+  const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
+  switch (wall) {
+    case partner::wall_left: return {{1.0, 0.0}, extent.x()};
+    case partner::wall_right: return {{-1.0, 0.0}, extent.x() - field.length};
+    case partner::wall_bottom: return {{0.0, 1.0}, extent.y()};
+    case partner::wall_top: return {{0.0, -1.0}, extent.y() - field.width};
+    default: break;
+  }
+  if (builds_[body].half == Half::left) return {{-1.0, 0.0}, extent.x() - 0.5 * field.length};
+  return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
+}
+
+void Engine::predict_curved_walls(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  const Motion still, moving = motion(body);
+  const RelativeMotion relative{still, moving};
+  const auto predict_plane = [&](Partner wall) {
+    const auto time = first_contact(relative, plane_of(body, wall), b.time, slots_[body].impact_time, tolerance_);
+    if (!time) return;
+    const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
+    const bool is_open = is_end && b.kind == BodyKind::puck && std::abs(moving.at(*time).position.y() - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width;
+    offer(body, *time, is_open ? partner::mouth_in : wall);
+  };
+  const bool is_resting_x = b.vx == 0.0 && laws_[body].acceleration.x() == 0.0, is_resting_y = b.vy == 0.0 && laws_[body].acceleration.y() == 0.0;
+  if (!is_resting_y) predict_plane(partner::wall_bottom), predict_plane(partner::wall_top);
+  if (is_resting_x || b.mouth != no_mouth) return;
+  predict_plane(partner::wall_left);
+  predict_plane(partner::wall_right);
+  if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat && builds_[body].half != Half::both) predict_plane(partner::halfway);
+}
+
+Vector2 Engine::goal_edge(Partner edge) const {
+  const Field& field = spec_.field;
+  const bool is_left = edge == partner::edge_left_low || edge == partner::edge_left_high;
+  const bool is_low = edge == partner::edge_left_low || edge == partner::edge_right_low;
+  return {is_left ? 0.0 : field.length, 0.5 * (field.width + (is_low ? -field.goal_width : field.goal_width))};
+}
+
+/// Between the edges of a goal: the two edges, the goal line, and the way out.
+void Engine::predict_mouth(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  const bool is_left = b.mouth == left_mouth;
+  const Motion moving = motion(body);
+  Motion still;
+  const auto meet = [&](const auto& shape, Partner p) {
+    const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time, slots_[body].impact_time, tolerance_);
+    if (time) offer(body, *time, p);
+  };
+  const double end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
+  meet(HalfPlane{{inwards, 0.0}, inwards * end}, partner::goal_line);
+  meet(HalfPlane{{-inwards, 0.0}, -inwards * (end + inwards * b.radius)}, partner::mouth_out);
+  for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low, is_left ? partner::edge_left_high : partner::edge_right_high}) {
+    still.position = goal_edge(edge);
+    meet(RoundedBox{{0.0, 0.0}, b.radius}, edge);
+  }
+}
+
+/// Both positions are taken at the later of the two last events, so that the result depends on nothing but the two states.
+void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
+  ++counters_.predictions;
+  const Body &a = bodies_[body], &b = bodies_[other];
+  if (((a.flags | b.flags) & curved) != 0) return predict_curved_pair(body, other);
+  Vector2 offset(b.x - a.x, b.y - a.y), velocity;
+  const double time = std::max(a.time, b.time);
+  if (puck_drag_ == 0.0) {
+    const double ahead_a = time - a.time, ahead_b = time - b.time;
+    offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
+    velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
+  } else {
+    const WarpedTime wa = warp(time - a.time, puck_drag_), wb = warp(time - b.time, puck_drag_);
+    offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
+    velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
+  }
+  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius)) offer(body, real_time(time, *wait), other);
+}
+
+void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
+  if ((bodies_[body].flags & bodies_[other].flags & frozen) != 0) return;
+  if ((bodies_[body].flags & held) != 0 && are_held(body, other)) return;
+  const std::uint32_t low = std::min(body, other), high = std::max(body, other);
+  const Motion a = motion(low), b = motion(high);
+  const double start = std::max(a.time, b.time);
+  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, slots_[body].impact_time, tolerance_);
+  if (time) offer(body, *time, other);
+}
+
+void Engine::predict_release(std::uint32_t body) {
+  for (const Hold& hold : holds_)
+    if (hold.low == body || hold.high == body) offer(body, std::min(hold.pull_time, slide_time(hold)), partner::release);
+}
+
+/// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.
+void Engine::predict_crossing(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  Slot& slot = slots_[body];
+  slot.crossing_time = infinity;
+  slot.columns = slot.rows = 0;
+  const std::uint32_t column = grid_.column_of(body), row = grid_.row_of(body);
+  if ((b.flags & curved) == 0) {
+    const double x = b.vx == 0.0 ? infinity : ((b.vx < 0.0 ? grid_.low(column) : grid_.high(column, true)) - b.x) / b.vx;
+    const double y = b.vy == 0.0 ? infinity : ((b.vy < 0.0 ? grid_.low(row) : grid_.high(row, false)) - b.y) / b.vy;
+    const double warped = std::min(x, y);
+    if (warped == infinity) return;
+    slot.crossing_time = real_time(b.time, warped);
+    if (x <= y) slot.columns = b.vx < 0.0 ? -1 : 1;
+    else slot.rows = b.vy < 0.0 ? -1 : 1;
+    return;
+  }
+  const Motion still, moving = motion(body);
+  const double start = std::max(b.time, now_);
+  const auto leave = [&](double edge, Vector2 normal, int columns, int rows) {
+    if (std::abs(edge) == infinity) return;
+    const double limit = std::min(slot.impact_time, slot.crossing_time);
+    const auto time = first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start, limit, tolerance_);
+    if (!time || *time >= slot.crossing_time) return;
+    slot.crossing_time = *time;
+    slot.columns = static_cast<std::int8_t>(columns);
+    slot.rows = static_cast<std::int8_t>(rows);
+  };
+  leave(grid_.low(column), {1.0, 0.0}, -1, 0);
+  leave(grid_.high(column, true), {-1.0, 0.0}, 1, 0);
+  leave(grid_.low(row), {0.0, 1.0}, 0, -1);
+  leave(grid_.high(row, false), {0.0, -1.0}, 0, 1);
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,141 @@
+// Buckets of equal width for the near future, one unsorted list for what lies beyond.
+#include "game/physics/event_queue.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace rink::physics {
+
+namespace {
+constexpr double number_max = 4.0e18;
+}
+
+void EventQueue::resize(std::uint32_t count) {
+  entries_.resize(count);
+  if (heads_.size() < count || heads_.empty()) {
+    heads_.resize(std::bit_ceil(std::max<std::size_t>(2 * std::size_t{count}, 64)));
+    rebuild(1.0 / inverse_width_);
+  }
+}
+
+std::int64_t EventQueue::bucket_number(double time) const {
+  return std::max(current_, static_cast<std::int64_t>(std::min(time * inverse_width_, number_max)));
+}
+
+bool EventQueue::precedes(const Entry& a, const Entry& b) const {
+  if (a.time != b.time) return a.time < b.time;
+  if (a.lower != b.lower) return a.lower < b.lower;
+  return a.higher < b.higher;
+}
+
+void EventQueue::link(std::uint32_t body) {
+  Entry& entry = entries_[body];
+  const std::int64_t number = bucket_number(entry.time);
+  entry.bucket = number < horizon_ ? static_cast<std::uint32_t>(number & static_cast<std::int64_t>(heads_.size() - 1)) : later_bucket;
+  near_count_ += entry.bucket != later_bucket;
+  std::uint32_t& first = head(entry.bucket);
+  entry.next = first;
+  entry.previous = none;
+  if (first != none) entries_[first].previous = body;
+  first = body;
+}
+
+void EventQueue::unlink(std::uint32_t body) {
+  Entry& entry = entries_[body];
+  if (entry.bucket == none) return;
+  near_count_ -= entry.bucket != later_bucket;
+  if (entry.previous == none) head(entry.bucket) = entry.next;
+  else entries_[entry.previous].next = entry.next;
+  if (entry.next != none) entries_[entry.next].previous = entry.previous;
+  entry.bucket = none;
+}
+
+void EventQueue::set(std::uint32_t body, double time, std::uint32_t lower, std::uint32_t higher) {
+  unlink(body);
+  Entry& entry = entries_[body];
+  entry.time = time;
+  entry.lower = lower;
+  entry.higher = higher;
+  if (time < std::numeric_limits<double>::infinity()) link(body);
+}
+
+std::uint32_t EventQueue::earliest_in(std::uint32_t list) {
+  std::uint32_t best = list;
+  for (std::uint32_t body = list; body != none; body = entries_[body].next) {
+    ++scanned_;
+    if (precedes(entries_[body], entries_[best])) best = body;
+  }
+  return best;
+}
+
+void EventQueue::rebuild(double width) {
+  std::vector<std::uint32_t> pending;
+  for (std::uint32_t body = 0; body < entries_.size(); ++body)
+    if (entries_[body].bucket != none) pending.push_back(body);
+  inverse_width_ = 1.0 / width;
+  current_ = static_cast<std::int64_t>(std::min(last_time_ * inverse_width_, number_max));
+  horizon_ = current_ + static_cast<std::int64_t>(heads_.size());
+  std::fill(heads_.begin(), heads_.end(), none);
+  later_ = none;
+  near_count_ = 0;
+  for (const std::uint32_t body : pending) link(body);
+  taken_ = scanned_ = 0;
+  refill_time_ = last_time_;
+}
+
+/// Moves the horizon on; false if nothing is due by `until`.
+bool EventQueue::refill(double until) {
+  if (near_count_ == 0) {
+    const std::uint32_t earliest = earliest_in(later_);
+    if (earliest == none || entries_[earliest].time > until) return false;
+    current_ = bucket_number(entries_[earliest].time);
+    last_time_ = std::max(last_time_, entries_[earliest].time);
+  }
+  const double elapsed = last_time_ - refill_time_;
+  const auto buckets = static_cast<double>(heads_.size());
+  if (taken_ > 64 && elapsed > 0.0) {
+    const double wanted = elapsed / static_cast<double>(taken_), width = 1.0 / inverse_width_;
+    if (wanted > 4.0 * width || wanted < 0.25 * width) {
+      rebuild(std::max(wanted, 1e-15 * (1.0 + last_time_)));
+      return true;
+    }
+  }
+  taken_ = scanned_ = 0;
+  refill_time_ = last_time_;
+  horizon_ = current_ + static_cast<std::int64_t>(buckets);
+  std::uint32_t body = later_;
+  while (body != none) {
+    const std::uint32_t next = entries_[body].next;
+    if (bucket_number(entries_[body].time) < horizon_) {
+      unlink(body);
+      link(body);
+    }
+    body = next;
+  }
+  return true;
+}
+
+std::uint32_t EventQueue::first(double until) {
+  const auto last = static_cast<std::int64_t>(std::min(until * inverse_width_, number_max));
+  (void)last;
+  for (;;) {
+    if (near_count_ == 0 || current_ >= horizon_) {
+      if (!refill(until)) return none;
+      continue;
+    }
+    const std::uint32_t list = heads_[static_cast<std::size_t>(current_ & static_cast<std::int64_t>(heads_.size() - 1))];
+    if (list != none) {
+      const std::uint32_t best = earliest_in(list);
+      if (entries_[best].time > until) return none;
+      last_time_ = std::max(last_time_, entries_[best].time);
+      if (++taken_; scanned_ > 16 * taken_ + 4096 && last_time_ > refill_time_)
+        rebuild(std::max((last_time_ - refill_time_) / static_cast<double>(taken_), 1e-15 * (1.0 + last_time_)));
+      return best;
+    }
+    if (static_cast<double>(current_) >= until * inverse_width_) return none;
+    ++current_;
+  }
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,52 @@
+// A calendar queue: the earliest pending event of every body, in order of time and then of the two bodies' ids.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rink::physics {
+
+/// One entry per body. Setting and taking cost constant time as long as events are spread over time; the bucket width follows the rate at which they are taken
+/// (R. Brown, "Calendar queues", CACM 31, 1988).
+class EventQueue {
+ public:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  /// Makes room for bodies 0 .. count-1; new ones have no event.
+  void resize(std::uint32_t count);
+  /// Gives `body` its event at `time` [s], ordered among equal times by `lower`, then `higher`. Infinity takes it out.
+  void set(std::uint32_t body, double time, std::uint32_t lower, std::uint32_t higher);
+  /// The body whose event comes first, if it comes no later than `until`, else `none`. The entry stays.
+  std::uint32_t first(double until);
+  double time(std::uint32_t body) const { return entries_[body].time; }
+
+ private:
+  struct Entry {
+    double time = std::numeric_limits<double>::infinity();
+    std::uint32_t lower = none, higher = none;
+    std::uint32_t next = none, previous = none;
+    std::uint32_t bucket = none;
+  };
+  static constexpr std::uint32_t later_bucket = 0xfffffffe;
+
+  std::int64_t bucket_number(double time) const;
+  void link(std::uint32_t body);
+  void unlink(std::uint32_t body);
+  std::uint32_t& head(std::uint32_t bucket) { return bucket == later_bucket ? later_ : heads_[bucket]; }
+  bool precedes(const Entry& a, const Entry& b) const;
+  std::uint32_t earliest_in(std::uint32_t list);
+  bool refill(double until);
+  void rebuild(double width);
+
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> heads_;
+  std::uint32_t later_ = none;          // beyond the horizon, unsorted
+  std::uint32_t near_count_ = 0;        // entries in buckets
+  double inverse_width_ = 1e3;
+  std::int64_t current_ = 0, horizon_ = 0;
+  std::uint64_t taken_ = 0, scanned_ = 0;
+  double refill_time_ = 0.0, last_time_ = 0.0;
+};
+
+}  // namespace rink::physics
