@@ -1,0 +1,126 @@
+// Times interest management: whole passes with moving entities and subscriptions, judged by a brute-force recount.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "im/filter.h"
+
+namespace {
+
+using namespace rink;
+
+/// A crowd on a square field: pucks of 4 cm radius at five per square metre that move 1 m/s, and subscriptions of 5 % of the field that follow bats.
+struct Crowd {
+  struct Mover {
+    double x, y, dx, dy;
+  };
+  Crowd(std::uint32_t subscriber_count, std::uint32_t object_count, double rate_hz) : side(std::sqrt(object_count / 5.0)) {
+    std::mt19937_64 random(42);
+    std::uniform_real_distribution<double> place(0.0, side), angle(0.0, 6.283185307179586);
+    const auto draw = [&] {
+      const double a = angle(random);
+      return Mover{place(random), place(random), std::cos(a) / rate_hz, std::sin(a) / rate_hz};
+    };
+    std::generate_n(std::back_inserter(objects), object_count, draw);
+    std::generate_n(std::back_inserter(subscribers), subscriber_count, draw);
+  }
+
+  /// Moves `share` of all on, a different share each tick, reflected at the walls.
+  void step(double share) {
+    const auto stride = static_cast<std::size_t>(std::lround(1.0 / share));
+    for (std::vector<Mover>* movers : {&objects, &subscribers})
+      for (std::size_t i = tick % stride; i < movers->size(); i += stride) advance((*movers)[i]);
+    ++tick;
+  }
+  void advance(Mover& mover) const {
+    mover.x += mover.dx;
+    mover.y += mover.dy;
+    if (mover.x < 0.0 || mover.x > side) mover.dx = -mover.dx;
+    if (mover.y < 0.0 || mover.y > side) mover.dy = -mover.dy;
+  }
+
+  static im::Region around(const Mover& mover, double half) { return {mover.x - half, mover.y - half, mover.x + half, mover.y + half}; }
+  im::Region update(std::size_t i) const { return around(objects[i], 0.04); }
+  im::Region subscription(std::size_t i) const { return around(subscribers[i], half_interest()); }
+  double half_interest() const { return 0.5 * side * std::sqrt(0.05); }
+
+  void tell(im::Filter& filter) const {
+    for (std::uint32_t i = 0; i < objects.size(); ++i) filter.set_update_region(i, update(i));
+    for (std::uint32_t i = 0; i < subscribers.size(); ++i) filter.set_subscription_region(i, subscription(i));
+  }
+
+  double side;
+  std::vector<Mover> objects, subscribers;
+  std::size_t tick = 0;
+};
+
+/// Interest as a table of bits, either replayed from changes or counted anew.
+using Table = std::vector<std::uint8_t>;
+
+void replay(std::span<const im::Change> changes, std::size_t object_count, Table& table) {
+  for (const im::Change& change : changes) table[change.subscriber * object_count + change.entity] ^= 1u;
+}
+
+bool is_relevant(const std::string& scheme, const im::Region& s, const im::Region& u, double cell) {
+  if (scheme == "none") return true;
+  if (scheme == "region") return s.low_x <= u.high_x && u.low_x <= s.high_x && s.low_y <= u.high_y && u.low_y <= s.high_y;
+  const double column = std::floor(0.5 * (u.low_x + u.high_x) / cell), row = std::floor(0.5 * (u.low_y + u.high_y) / cell);
+  return std::floor(s.low_x / cell) <= column && column <= std::floor(s.high_x / cell) && std::floor(s.low_y / cell) <= row &&
+         row <= std::floor(s.high_y / cell);
+}
+
+std::size_t mismatches(const Crowd& crowd, const std::string& scheme, double cell, const Table& table) {
+  std::size_t wrong = 0;
+  for (std::size_t s = 0; s < crowd.subscribers.size(); ++s)
+    for (std::size_t e = 0; e < crowd.objects.size(); ++e)
+      wrong += is_relevant(scheme, crowd.subscription(s), crowd.update(e), cell) != (table[s * crowd.objects.size() + e] != 0);
+  return wrong;
+}
+
+/// One iteration is one tick as the RTI sees it: every region handed in, moved or not, then the match.
+void pass(benchmark::State& state, const std::string& scheme, std::uint32_t subscribers, std::uint32_t objects, double moved, double rate_hz) {
+  Crowd crowd(subscribers, objects, rate_hz);
+  const double cell = crowd.side / 32.0;
+  const auto filter = im::make_filter(scheme, {.world = {0.0, 0.0, crowd.side, crowd.side}, .cell_size = cell});
+  Table table(std::size_t{subscribers} * objects);
+  crowd.tell(*filter);
+  replay(filter->match(), objects, table);
+  const im::FilterCounters before = filter->counters();
+  for (auto _ : state) {
+    state.PauseTiming();
+    crowd.step(moved);
+    state.ResumeTiming();
+    crowd.tell(*filter);
+    const auto changes = filter->match();
+    state.PauseTiming();
+    replay(changes, objects, table);
+    state.ResumeTiming();
+  }
+  using benchmark::Counter;
+  state.counters["mismatches"] = static_cast<double>(mismatches(crowd, scheme, cell, table));
+  state.counters["changes"] = Counter(static_cast<double>(filter->counters().changes - before.changes), Counter::kAvgIterations);
+  state.counters["tests"] = Counter(static_cast<double>(filter->counters().pairs_tested - before.pairs_tested), Counter::kAvgIterations);
+  state.counters["standing"] = static_cast<double>(std::count(table.begin(), table.end(), 1));
+}
+
+const bool is_registered = [] {
+  const auto add = [](const std::string& scheme, std::uint32_t subscribers, std::uint32_t objects, const char* moved, double rate_hz) {
+    const std::string name = "im/pass/" + scheme + "/subscribers:" + std::to_string(subscribers) + "/objects:" + std::to_string(objects) + "/moved:" + moved;
+    benchmark::RegisterBenchmark(name.c_str(), pass, scheme, subscribers, objects, std::stod(moved), rate_hz)
+        ->UseRealTime()
+        ->Unit(benchmark::kMicrosecond);
+  };
+  for (const std::string& scheme : im::filter_names()) {
+    for (const char* moved : {"1", "0.1", "0.01"}) add(scheme, 1'000, 10'000, moved, 60.0);
+    add(scheme, 500, 5'500, "1", 30.0);
+  }
+  return true;
+}();
+
+}  // namespace
