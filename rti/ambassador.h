@@ -16,12 +16,6 @@
 
 namespace rink::rti {
 
-/// A region and the bounds that it shall have.
-struct RegionBounds {
-  RegionHandle region;
-  im::Region bounds;  ///< over the dimensions X and Y [m]
-};
-
 /// How long a silent peer is waited for.
 struct Patience {
   double heartbeat_s = 1.0;  ///< a side that has nothing else to say says so this often
@@ -135,6 +129,7 @@ class Ambassador {
   std::vector<std::vector<KnownObject>> known_;  ///< by block, then by number within it
   std::vector<im::Region> regions_;              ///< by handle
   std::vector<std::uint32_t> free_regions_;
+  std::vector<std::byte> region_records_;
   FrameWriter outgoing_;
   FrameReader incoming_;
   /// The block of updates that still grows at the end of `outgoing_`, if any.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "im/filter.h"
 #include "rti/attribute_set.h"
@@ -10,6 +11,7 @@
 #include "rti/frame.h"
 #include "rti/handles.h"
 #include "rti/membership.h"
+#include "rti/stream.h"
 
 namespace rink::rti {
 
@@ -28,11 +30,18 @@ enum class MessageKind : std::uint8_t {
   // federate to RTI
   join = 1, resign, heartbeat, register_synchronization_point, synchronization_point_achieved, watch_federates,
   publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
-  register_object, delete_object, updates, interaction, modify_regions, associate_region, delete_region,
+  register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
 };
+
+/// Bytes of `message` with its kind.
+template <class Message>
+std::size_t measure(Message& message);
+/// Appends `message` with its kind.
+template <class Message>
+void write(std::vector<std::byte>& bytes, Message& message);
 
 struct JoinMessage {
   static constexpr MessageKind kind = MessageKind::join;
@@ -185,8 +194,19 @@ bool exchange(Stream& stream, InteractionMessage& message) {
          stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
 }
 
-/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y (f64 each). A new handle must be the
-/// least that is free.
+/// A region and the bounds that it shall have.
+struct RegionBounds {
+  RegionHandle region;
+  im::Region bounds;  ///< over the dimensions X and Y [m]
+};
+template <class Stream>
+bool exchange(Stream& stream, RegionBounds& record) {
+  im::Region& bounds = record.bounds;
+  return stream.number(record.region.value) && stream.finite(bounds.low_x) && stream.finite(bounds.low_y) && stream.finite(bounds.high_x) &&
+         stream.finite(bounds.high_y) && bounds.low_x <= bounds.high_x && bounds.low_y <= bounds.high_y;
+}
+
+/// `records` are, `count` times, a region handle (u32) and its bounds: low x, low y, high x, high y (f64 each).
 struct ModifyRegionsMessage {
   static constexpr MessageKind kind = MessageKind::modify_regions;
   static constexpr std::size_t record_size = 4 + 4 * 8;
@@ -209,14 +229,18 @@ bool exchange(Stream& stream, AssociateRegionMessage& message) {
   return stream.number(message.object) && stream.number(message.region);
 }
 
-struct DeleteRegionMessage {
-  static constexpr MessageKind kind = MessageKind::delete_region;
+/// A region comes (its handle is free and at most one beyond the greatest ever used) or goes.
+template <MessageKind k>
+struct RegionMessage {
+  static constexpr MessageKind kind = k;
   std::uint32_t region = 0;
 };
-template <class Stream>
-bool exchange(Stream& stream, DeleteRegionMessage& message) {
-  return stream.number(message.region);
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, RegionMessage<k>& message) {
+  return stream.range(message.region, region_max - 1);
 }
+using CreateRegionMessage = RegionMessage<MessageKind::create_region>;
+using DeleteRegionMessage = RegionMessage<MessageKind::delete_region>;
 
 struct JoinedMessage {
   static constexpr MessageKind kind = MessageKind::joined;
@@ -259,6 +283,22 @@ template <class Stream>
 bool exchange(Stream& stream, FederateResignedMessage& message) {
   return stream.number(message.federate) && stream.range(message.reason, static_cast<std::uint64_t>(ResignReason::misbehaved)) &&
          stream.text(message.name, text_max) && stream.text(message.type, text_max);
+}
+
+template <class Message>
+std::size_t measure(Message& message) {
+  Measurer measurer;
+  exchange(measurer, message);
+  return 1 + measurer.size();
+}
+
+template <class Message>
+void write(std::vector<std::byte>& bytes, Message& message) {
+  Writer writer(bytes);
+  auto kind = static_cast<std::uint8_t>(Message::kind);
+  writer.number(kind);
+  [[maybe_unused]] const bool is_written = exchange(writer, message);
+  assert(is_written);
 }
 
 }  // namespace rink::rti

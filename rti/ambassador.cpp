@@ -1,0 +1,224 @@
+// The services of the federate's side: each becomes a message at the end of `outgoing`.
+#include "rti/ambassador.h"
+
+#include <cassert>
+#include <cstring>
+
+#include "rti/message.h"
+
+namespace rink::rti {
+
+Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience)
+    : fom_(fom), callbacks_(callbacks), patience_(patience), outgoing_(frame_max_to_rti) {}
+
+template <class Message>
+void Ambassador::say(Message message) {
+  assert(phase_ == Phase::joining || phase_ == Phase::joined);
+  write(outgoing_.begin_message(measure(message)), message);
+  outgoing_.appended();
+  open_.is_open = false;
+}
+
+void Ambassador::join(std::string_view federation, std::string_view federate_name, std::string_view federate_type) {
+  assert(phase_ == Phase::idle);
+  phase_ = Phase::joining;
+  JoinMessage message;
+  message.fom_hash = fom_.hash();
+  message.federation = federation;
+  message.name = federate_name;
+  message.type = federate_type;
+  say(message);
+  outgoing_.close_frame();  // before it is let in, a federate may only send short frames
+}
+
+void Ambassador::resign() {
+  if (phase_ == Phase::joining || phase_ == Phase::joined) say(ResignMessage{});
+  phase_ = Phase::ended;
+}
+
+void Ambassador::register_synchronization_point(std::string_view label) { say(RegisterSynchronizationPointMessage{label}); }
+void Ambassador::synchronization_point_achieved(std::string_view label) { say(SynchronizationPointAchievedMessage{label}); }
+void Ambassador::watch_federates() { say(WatchFederatesMessage{}); }
+
+void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
+  assert(fom_.attributes(object_class).includes(attributes));
+  say(PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
+}
+
+void Ambassador::unpublish_object_class(ObjectClassHandle object_class) { publish_object_class_attributes(object_class, {}); }
+
+void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
+  assert(fom_.attributes(object_class).includes(attributes));
+  say(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits, region.value});
+}
+
+void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
+  subscribe_object_class_attributes(object_class, {}, region);
+}
+
+void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) {
+  say(PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 1});
+}
+void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) {
+  say(PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 0});
+}
+void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_class) {
+  say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 1});
+}
+void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
+  say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 0});
+}
+
+ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class, std::string_view name) {
+  assert(phase_ == Phase::joined && object_class.value < fom_.object_classes().size());
+  if (objects_registered_ == object_block) return {};
+  const ObjectHandle object{object_block_ * object_block + objects_registered_++};
+  remember(object) = {static_cast<std::uint16_t>(object_class.value), true};
+  say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
+  return object;
+}
+
+void Ambassador::delete_object_instance(ObjectHandle object) {
+  KnownObject* known = find(object);
+  assert(known != nullptr && known->is_own);
+  *known = {};
+  say(DeleteObjectMessage{object.value});
+}
+
+namespace {
+
+// Where the three numbers that grow with a block of updates stand in its message.
+constexpr std::size_t count_at = UpdatesMessage::header_size - 8, records_size_at = UpdatesMessage::header_size - 4;
+
+void append_number(std::vector<std::byte>& bytes, std::uint32_t value) { Writer(bytes).number(value); }
+
+}  // namespace
+
+void Ambassador::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+  UpdatesMessage message;
+  message.object_class = static_cast<std::uint16_t>(object_class.value);
+  message.attributes = attributes.bits;
+  message.stamp = stamp;
+  message.value_size = fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies);
+  say(message);
+  open_ = {true, object_class, attributes, stamp, message.value_size, 0, outgoing_.buffer().size() - UpdatesMessage::header_size};
+}
+
+void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) {
+  const KnownObject* known = find(object);
+  assert(phase_ == Phase::joined && known != nullptr && known->is_own);
+  const ObjectClassHandle object_class{known->object_class};
+  assert(fom_.values_fit(object_class, attributes, values) && values.size() <= values_max);
+  const std::size_t record_size = 8 + values.size();
+  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(record_size)) {
+    if (!outgoing_.has_room(UpdatesMessage::header_size + record_size)) outgoing_.close_frame();
+    begin_updates(object_class, attributes, stamp);
+  }
+  std::vector<std::byte>& bytes = outgoing_.buffer();
+  append_number(bytes, object.value);
+  if (open_.value_size == UpdatesMessage::varies) append_number(bytes, static_cast<std::uint32_t>(values.size()));
+  bytes.insert(bytes.end(), values.begin(), values.end());
+  outgoing_.appended();
+  const std::uint32_t count = ++open_.count;
+  const auto records_size = static_cast<std::uint32_t>(bytes.size() - open_.at - UpdatesMessage::header_size);
+  std::memcpy(bytes.data() + open_.at + count_at, &count, sizeof count);
+  std::memcpy(bytes.data() + open_.at + records_size_at, &records_size, sizeof records_size);
+  ++counters_.updates_sent;
+}
+
+void Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp) {
+  send_directed_interaction(interaction_class, {}, parameters, stamp);
+}
+
+void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp) {
+  assert(phase_ == Phase::joined && interaction_class.value < fom_.interaction_classes().size());
+  say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp, parameters});
+  ++counters_.interactions_sent;
+}
+
+RegionHandle Ambassador::create_region() {
+  std::uint32_t region = static_cast<std::uint32_t>(regions_.size());
+  if (free_regions_.empty()) {
+    if (region == region_max) return {};
+    regions_.emplace_back();
+  } else {
+    region = free_regions_.back();
+    free_regions_.pop_back();
+  }
+  say(CreateRegionMessage{region});
+  return {region};
+}
+
+void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
+  assert(region.value < regions_.size());
+  regions_[region.value] = bounds;
+}
+
+void Ambassador::commit_region_modifications(RegionHandle region) {
+  const RegionBounds one{region, regions_[region.value]};
+  commit_region_modifications(std::span(&one, 1));
+}
+
+void Ambassador::commit_region_modifications(std::span<const RegionBounds> regions) {
+  while (!regions.empty()) {
+    const auto chunk = regions.first(std::min(regions.size(), ModifyRegionsMessage::count_max));
+    regions = regions.subspan(chunk.size());
+    region_records_.clear();
+    Writer writer(region_records_);
+    for (RegionBounds each : chunk) {
+      assert(each.region.value < regions_.size() && each.bounds.low_x <= each.bounds.high_x && each.bounds.low_y <= each.bounds.high_y);
+      regions_[each.region.value] = each.bounds;
+      exchange(writer, each);
+    }
+    say(ModifyRegionsMessage{static_cast<std::uint16_t>(chunk.size()), region_records_});
+  }
+}
+
+void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
+  assert(find(object) != nullptr && find(object)->is_own);
+  say(AssociateRegionMessage{object.value, region.value});
+}
+
+void Ambassador::delete_region(RegionHandle region) {
+  assert(region.value < regions_.size());
+  free_regions_.push_back(region.value);
+  say(DeleteRegionMessage{region.value});
+}
+
+void Ambassador::clear_outgoing() {
+  if (!outgoing_.bytes().empty()) has_said_ = true;
+  counters_.bytes_sent += outgoing_.bytes().size();
+  counters_.frames_sent = outgoing_.frame_count();
+  outgoing_.clear();
+  open_.is_open = false;
+}
+
+void Ambassador::advance_clock(double now) {
+  if (!has_clock_) last_heard_ = last_said_ = now;
+  has_clock_ = true;
+  if (has_heard_) last_heard_ = now;
+  if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
+  has_heard_ = has_said_ = false;
+  if (phase_ != Phase::joined && phase_ != Phase::joining) return;
+  if (now - last_heard_ > patience_.lost_after_s) return lose("the RTI has been silent for too long");
+  if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
+    say(HeartbeatMessage{});
+    last_said_ = now;
+  }
+}
+
+Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
+  const std::uint32_t block = object.value / object_block, number = object.value % object_block;
+  if (block >= known_.size() || number >= known_[block].size()) return nullptr;
+  KnownObject& known = known_[block][number];
+  return known.object_class == KnownObject::unknown ? nullptr : &known;
+}
+
+Ambassador::KnownObject& Ambassador::remember(ObjectHandle object) {
+  const std::uint32_t block = object.value / object_block, number = object.value % object_block;
+  if (block >= known_.size()) known_.resize(block + 1);
+  if (number >= known_[block].size()) known_[block].resize(number + 1);
+  return known_[block][number];
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,155 @@
+// What the RTI says to a federate: each message is checked and becomes a callback.
+#include <cassert>
+
+#include "rti/ambassador.h"
+#include "rti/message.h"
+
+namespace rink::rti {
+
+bool Ambassador::receive(Bytes bytes) {
+  if (phase_ == Phase::ended) return true;
+  has_heard_ = true;
+  counters_.bytes_received += bytes.size();
+  const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); });
+  if (!is_understood) lose("the RTI sent what this version does not understand");
+  return is_understood;
+}
+
+void Ambassador::disconnected(std::string_view why) { lose(why); }
+
+void Ambassador::lose(std::string_view why) {
+  if (phase_ == Phase::ended || phase_ == Phase::idle) return;
+  phase_ = Phase::ended;
+  callbacks_.connection_lost(why);
+}
+
+bool Ambassador::take_frame(Bytes frame) {
+  ++counters_.frames_received;
+  Reader reader(frame);
+  while (!reader.is_at_end() && phase_ != Phase::ended)
+    if (!take_message(reader)) return false;
+  return true;
+}
+
+bool Ambassador::take_message(Reader& reader) {
+  std::uint8_t kind = 0;
+  reader.number(kind);
+  const auto name = static_cast<MessageKind>(kind);
+  if (name == MessageKind::joined || name == MessageKind::refused) return take_membership(reader, kind);
+  if (phase_ != Phase::joined) return false;
+  switch (name) {
+    case MessageKind::heartbeat: return true;
+    case MessageKind::announce_synchronization_point:
+    case MessageKind::federation_synchronized: return take_synchronization(reader, kind);
+    case MessageKind::federate_joined:
+    case MessageKind::federate_resigned: return take_federate(reader, kind);
+    case MessageKind::discover_object:
+    case MessageKind::remove_object: return take_object(reader, kind);
+    case MessageKind::in_scope:
+    case MessageKind::out_of_scope: return take_scope(reader, kind);
+    case MessageKind::updates: return take_updates(reader);
+    case MessageKind::interaction: return take_interaction(reader);
+    default: return false;
+  }
+}
+
+bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
+  if (phase_ != Phase::joining) return false;
+  if (static_cast<MessageKind>(kind) == MessageKind::refused) {
+    RefusedMessage message;
+    if (!exchange(reader, message)) return false;
+    phase_ = Phase::ended;
+    callbacks_.join_refused(static_cast<Refusal>(message.refusal), message.why);
+    return true;
+  }
+  JoinedMessage message;
+  if (!exchange(reader, message)) return false;
+  phase_ = Phase::joined;
+  federate_ = {message.federate};
+  object_block_ = message.object_block;
+  callbacks_.joined(federate_);
+  return true;
+}
+
+bool Ambassador::take_synchronization(Reader& reader, std::uint8_t kind) {
+  AnnounceSynchronizationPointMessage message;
+  if (!exchange(reader, message)) return false;
+  if (static_cast<MessageKind>(kind) == MessageKind::announce_synchronization_point) callbacks_.announce_synchronization_point(message.label);
+  else callbacks_.federation_synchronized(message.label);
+  return true;
+}
+
+bool Ambassador::take_federate(Reader& reader, std::uint8_t kind) {
+  if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
+    FederateJoinedMessage message;
+    if (!exchange(reader, message)) return false;
+    callbacks_.federate_joined({message.federate}, message.name, message.type);
+    return true;
+  }
+  FederateResignedMessage message;
+  if (!exchange(reader, message)) return false;
+  callbacks_.federate_resigned({message.federate}, message.name, message.type, static_cast<ResignReason>(message.reason));
+  return true;
+}
+
+bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
+  if (static_cast<MessageKind>(kind) == MessageKind::remove_object) {
+    RemoveObjectMessage message;
+    if (!exchange(reader, message)) return false;
+    KnownObject* known = find({message.object});
+    if (known == nullptr || known->is_own) return false;
+    *known = {};
+    ++counters_.objects_removed;
+    callbacks_.remove_object_instance({message.object});
+    return true;
+  }
+  DiscoverObjectMessage message;
+  if (!exchange(reader, message)) return false;
+  const ObjectHandle object{message.object};
+  if (message.object_class >= fom_.object_classes().size() || object.value / object_block >= object_block_max || find(object) != nullptr) return false;
+  remember(object) = {message.object_class, false};
+  ++counters_.objects_discovered;
+  callbacks_.discover_object_instance(object, {message.object_class}, message.name);
+  return true;
+}
+
+bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
+  InScopeMessage message;
+  if (!exchange(reader, message) || find({message.object}) == nullptr) return false;
+  ++counters_.scope_changes;
+  if (static_cast<MessageKind>(kind) == MessageKind::in_scope) callbacks_.attributes_in_scope({message.object});
+  else callbacks_.attributes_out_of_scope({message.object});
+  return true;
+}
+
+bool Ambassador::take_updates(Reader& reader) {
+  UpdatesMessage message;
+  if (!exchange(reader, message) || message.object_class >= fom_.object_classes().size()) return false;
+  const ObjectClassHandle object_class{message.object_class};
+  const AttributeSet attributes{message.attributes};
+  if (!fom_.attributes(object_class).includes(attributes)) return false;
+  if (fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies) != message.value_size) return false;
+  const bool is_variable = message.value_size == UpdatesMessage::varies;
+  Reader records(message.records);
+  for (std::uint32_t i = 0; i < message.count && phase_ == Phase::joined; ++i) {
+    std::uint32_t object = 0, size = message.value_size;
+    Bytes values;
+    if (!records.number(object) || (is_variable && !records.number(size)) || !records.rest(values, size)) return false;
+    if (is_variable && !fom_.values_fit(object_class, attributes, values)) return false;
+    const KnownObject* known = find({object});
+    if (known == nullptr || known->object_class != message.object_class) return false;
+    ++counters_.updates_reflected;
+    callbacks_.reflect_attribute_values({object}, attributes, values, message.stamp);
+  }
+  return phase_ != Phase::joined || records.is_at_end();
+}
+
+bool Ambassador::take_interaction(Reader& reader) {
+  InteractionMessage message;
+  if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size()) return false;
+  ++counters_.interactions_received;
+  callbacks_.receive_interaction({message.interaction_class}, message.parameters, {message.federate}, message.stamp);
+  return true;
+}
+
+}  // namespace rink::rti

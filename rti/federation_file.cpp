@@ -1,0 +1,100 @@
+// Reads the federation file; every complaint names file, line and key.
+#include "rti/federation_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <toml++/toml.h>
+
+namespace rink::rti {
+
+namespace {
+
+/// Complains with the line of what it reads.
+class FederationReader {
+ public:
+  explicit FederationReader(const std::string& source) : source_(source) {}
+
+  [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const {
+    throw FileError(source_ + ":" + std::to_string(where.begin.line) + ": " + what);
+  }
+
+  void allow(const toml::table& table, std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : table) {
+      if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
+      std::string allowed;
+      for (const std::string_view each : keys) allowed += (allowed.empty() ? "" : ", ") + std::string(each);
+      fail(key.source(), "unknown key '" + std::string(key.str()) + "'; allowed are " + allowed);
+    }
+  }
+
+  std::string word(const toml::table& table, std::string_view key) const {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) fail(table.source(), "key '" + std::string(key) + "' is missing");
+    const auto value = node->value_exact<std::string>();
+    if (!value || value->empty()) fail(node->source(), "key '" + std::string(key) + "' must be a text that is not empty");
+    return *value;
+  }
+
+  Node node(const toml::table& table, const std::string& name) const {
+    const toml::node* port = table.get("port");
+    if (port == nullptr) fail(table.source(), "key 'port' is missing");
+    const auto value = port->value_exact<std::int64_t>();
+    if (!value || *value < 1 || *value > 65535) fail(port->source(), "key 'port' must be a whole number from 1 to 65535");
+    return {name, word(table, "address"), static_cast<std::uint16_t>(*value)};
+  }
+
+  std::vector<Node> nodes(const toml::node& list) const {
+    const toml::array* array = list.as_array();
+    if (array == nullptr || array->empty()) fail(list.source(), "key 'node' must be a list of tables: [[node]]");
+    std::vector<Node> nodes;
+    for (const toml::node& each : *array) {
+      const toml::table* table = each.as_table();
+      if (table == nullptr) fail(each.source(), "key 'node' must be a list of tables: [[node]]");
+      allow(*table, {"name", "address", "port"});
+      nodes.push_back(node(*table, word(*table, "name")));
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+        if (nodes[i].name == nodes.back().name) fail(table->source(), "key 'name': two nodes are called '" + nodes[i].name + "'");
+    }
+    return nodes;
+  }
+
+  FederationFile file(const toml::table& table) const {
+    allow(table, {"federation", "fom", "address", "port", "node"});
+    FederationFile file;
+    file.federation = word(table, "federation");
+    if (file.federation.size() > 255) fail(table.get("federation")->source(), "key 'federation' must be at most 255 bytes long");
+    const std::filesystem::path fom = word(table, "fom");
+    file.fom = fom.is_absolute() ? fom.string() : (std::filesystem::path(source_).parent_path() / fom).string();
+    const toml::node* list = table.get("node");
+    if (list != nullptr && table.contains("address")) fail(table.get("address")->source(), "key 'address' and a list of [[node]] exclude each other");
+    if (list != nullptr && table.contains("port")) fail(table.get("port")->source(), "key 'port' and a list of [[node]] exclude each other");
+    file.nodes = list != nullptr ? nodes(*list) : std::vector{node(table, "rti")};
+    return file;
+  }
+
+ private:
+  std::string source_;
+};
+
+}  // namespace
+
+FederationFile parse_federation_file(std::string_view toml, const std::string& source) {
+  const FederationReader reader(source);
+  try {
+    return reader.file(toml::parse(toml, source));
+  } catch (const toml::parse_error& error) {
+    reader.fail(error.source(), std::string("no well-formed TOML: ") + std::string(error.description()));
+  }
+}
+
+FederationFile load_federation_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) throw FileError(path + ": can't be read; expected a federation file in TOML");
+  return parse_federation_file(text.str(), path);
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,119 @@
+// Look-ups in a federation object model, and the hash by which two ends compare theirs.
+#include "rti/fom.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rink::rti {
+
+namespace {
+
+template <class Class>
+std::string qualified_name(const std::vector<Class>& classes, std::size_t index) {
+  std::string name = classes[index].name;
+  for (auto parent = classes[index].parent; parent; parent = classes[parent.value].parent) name = classes[parent.value].name + "." + name;
+  return name;
+}
+
+/// The index of the one class that is called so, alone or qualified.
+template <class Class>
+std::optional<std::uint32_t> find_class(const std::vector<Class>& classes, std::string_view name) {
+  const bool is_qualified = name.find('.') != std::string_view::npos;
+  std::optional<std::uint32_t> found;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (is_qualified ? qualified_name(classes, i) != name : classes[i].name != name) continue;
+    if (found) return std::nullopt;
+    found = static_cast<std::uint32_t>(i);
+  }
+  return found;
+}
+
+template <class Named>
+std::optional<std::uint32_t> find_named(const std::vector<Named>& members, std::string_view name) {
+  const auto found = std::find_if(members.begin(), members.end(), [&](const Named& member) { return member.name == name; });
+  if (found == members.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - members.begin());
+}
+
+template <class Class, class Tag>
+bool inherits(const std::vector<Class>& classes, Handle<Tag> handle, Handle<Tag> ancestor) {
+  while (handle && handle != ancestor) handle = classes[handle.value].parent;
+  return handle == ancestor;
+}
+
+/// Size of the value that starts `values` (its length word included), or nothing if it isn't all there.
+std::optional<std::size_t> value_size(const Attribute& attribute, Bytes values) {
+  if (attribute.size) return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size) : std::nullopt;
+  std::uint32_t length = 0;
+  if (values.size() < sizeof length) return std::nullopt;
+  std::memcpy(&length, values.data(), sizeof length);
+  if (length > values.size() - sizeof length) return std::nullopt;
+  return sizeof length + length;
+}
+
+}  // namespace
+
+std::optional<ObjectClassHandle> Fom::object_class(std::string_view name) const {
+  const auto index = find_class(object_classes_, name);
+  return index ? std::optional(ObjectClassHandle{*index}) : std::nullopt;
+}
+
+std::optional<AttributeHandle> Fom::attribute(ObjectClassHandle object_class, std::string_view name) const {
+  const auto index = find_named(at(object_class).attributes, name);
+  return index ? std::optional(AttributeHandle{*index}) : std::nullopt;
+}
+
+std::optional<InteractionClassHandle> Fom::interaction_class(std::string_view name) const {
+  const auto index = find_class(interaction_classes_, name);
+  return index ? std::optional(InteractionClassHandle{*index}) : std::nullopt;
+}
+
+std::optional<ParameterHandle> Fom::parameter(InteractionClassHandle interaction_class, std::string_view name) const {
+  const auto index = find_named(at(interaction_class).parameters, name);
+  return index ? std::optional(ParameterHandle{*index}) : std::nullopt;
+}
+
+std::optional<DimensionHandle> Fom::dimension(std::string_view name) const {
+  const auto found = std::find(dimensions_.begin(), dimensions_.end(), name);
+  return found == dimensions_.end() ? std::nullopt : std::optional(DimensionHandle{static_cast<std::uint32_t>(found - dimensions_.begin())});
+}
+
+AttributeSet Fom::attributes(ObjectClassHandle handle) const {
+  const std::size_t count = at(handle).attributes.size();
+  return AttributeSet(count == attribute_max ? 0xffffffffu : (1u << count) - 1u);
+}
+
+bool Fom::is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const { return inherits(object_classes_, handle, ancestor); }
+bool Fom::is_a(InteractionClassHandle handle, InteractionClassHandle ancestor) const { return inherits(interaction_classes_, handle, ancestor); }
+
+std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, AttributeSet set) const {
+  std::uint32_t size = 0;
+  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
+    const Attribute& attribute = at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))];
+    if (!attribute.size) return std::nullopt;
+    size += *attribute.size;
+  }
+  return size;
+}
+
+bool Fom::values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const {
+  if (!attributes(handle).includes(set)) return false;
+  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
+    const auto size = value_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
+    if (!size) return false;
+    values = values.subspan(*size);
+  }
+  return values.empty();
+}
+
+Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const {
+  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
+    const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
+    const std::size_t size = value_size(at(handle).attributes[index], values).value_or(0);
+    if (index == attribute.value) return values.first(size);
+    values = values.subspan(size);
+  }
+  return {};
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,27 @@
+// The words for refusals and resignations.
+#include "rti/membership.h"
+
+namespace rink::rti {
+
+const char* to_string(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::wrong_version: return "the two ends speak different versions of the protocol: build both from one version of Rink";
+    case Refusal::wrong_fom: return "the two ends have different object models: load the same FOM file at both";
+    case Refusal::wrong_federation: return "no federation execution of that name here";
+    case Refusal::name_taken: return "a federate of that name has already joined";
+    case Refusal::federation_full: return "the federation execution has its greatest number of federates";
+    case Refusal::bad_name: return "a federate needs a name";
+  }
+  return "unknown refusal";
+}
+
+const char* to_string(ResignReason reason) {
+  switch (reason) {
+    case ResignReason::resigned: return "resigned";
+    case ResignReason::lost: return "lost";
+    case ResignReason::misbehaved: return "misbehaved";
+  }
+  return "unknown reason";
+}
+
+}  // namespace rink::rti
