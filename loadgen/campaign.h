@@ -22,7 +22,7 @@ struct Outcome {
 };
 
 /// Runs every cell, appending each record to `results`. The key log of a game is written once, to `results`/keys, and shared by all its cells.
-/// Throws ExperimentError (before the first cell runs if at all possible) and std::system_error (a program cannot be started).
+/// Throws ExperimentError, before the first cell runs.
 Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
                      Progress& progress);
 

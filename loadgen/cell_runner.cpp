@@ -1,9 +1,11 @@
 // Starts the server, then the bots, waits for both within limits and reads their reports.
 #include "loadgen/cell_runner.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "loadgen/process.h"
 
@@ -144,7 +146,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   if (experiment.cell_size > 0.0) add("--cell-size", decimal(experiment.cell_size));
   add("--policy", cell.policy);
   add("--rate", decimal(experiment.tick_rate_hz));
-  add("--duration", decimal(experiment.duration_s));
+  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--clients", std::to_string(cell.clients));
   if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
@@ -159,7 +161,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   add("--count", std::to_string(cell.clients));
   add("--plan", key_log.string());
   add("--view", decimal(experiment.view_fraction));
-  add("--duration", decimal(experiment.duration_s));
+  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--report", report.string());
   return arguments;
@@ -172,6 +174,9 @@ std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experime
   } catch (const Failure& failure) {
     record.valid = false;
     record.why_invalid = failure.why;
+  } catch (const std::system_error& error) {
+    record.valid = false;
+    record.why_invalid = error.what();
   } catch (const Interrupted&) {
     return std::nullopt;
   }

@@ -27,15 +27,15 @@ struct RunnerSettings {
 /// Pins the server to the first of `processors` and the bots to all others; with fewer than two neither is pinned.
 void pin_apart(RunnerSettings& settings, const std::vector<int>& processors);
 
-/// The arguments that start the server of `cell`. `key_log` may be empty.
+/// The arguments that start the server of `cell`. To the programs `--duration` is the whole run, warm-up included. `key_log` may be empty.
 std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log,
                                          const std::filesystem::path& report);
 /// The arguments that start the bots of `cell` against the server at `address` (ADDRESS:PORT).
 std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& address,
                                         const std::filesystem::path& report);
 
-/// Runs `cell` and returns its record; whatever goes wrong makes it invalid and says why. Nothing if it was interrupted. Both processes are gone
-/// when this returns. Throws std::system_error if the programs cannot be started at all.
+/// Runs `cell` and returns its record; whatever goes wrong, a program that cannot be started included, makes it invalid and says why. Nothing if it was
+/// interrupted. Both processes are gone when this returns.
 std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);
 
 }  // namespace rink::loadgen

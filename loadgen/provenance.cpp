@@ -3,8 +3,9 @@
 
 #include <sys/utsname.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,9 @@ std::string value_in(const char* file, const std::string& key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t colon = line.find(':');
-    if (line.compare(0, key.size(), key) == 0 && colon != std::string::npos && colon + 2 <= line.size()) return line.substr(colon + 2);
+    if (line.compare(0, key.size(), key) == 0 && colon != std::string::npos && colon + 1 < line.size()) {
+      return line.substr(std::min(line.find_first_not_of(" \t", colon + 1), line.size()));
+    }
   }
   return "unknown";
 }
@@ -40,10 +43,15 @@ std::string now_utc() {
 }
 
 std::string build() {
-#ifdef NDEBUG
-  return "compiled by " __VERSION__ ", asserts off";
+#ifdef __clang__
+  const std::string compiler = __VERSION__;
 #else
-  return "compiled by " __VERSION__ ", asserts on";
+  const std::string compiler = "GCC " __VERSION__;
+#endif
+#ifdef NDEBUG
+  return compiler + ", asserts off";
+#else
+  return compiler + ", asserts on";
 #endif
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* style_sheet = R"css(
 :root{--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--s0:#0072b2;--s1:#d55e00;--s2:#008a63;--s3:#b3498a;--s4:#996600;--s5:#3d7ea6;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9}
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#9ccbe8;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9}}
-*{box-sizing:border-box}body{margin:0 auto;max-width:76rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
+*{box-sizing:border-box}body{margin:0 auto;max-width:80rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
 h1{font-size:1.6rem;margin:0 0 .2rem}h2{font-size:1.15rem;margin:2rem 0 .5rem}p{margin:.3rem 0;max-width:60rem}.faint{color:var(--faint)}.warn{color:var(--warn);font-weight:600}
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(26rem,1fr));gap:1rem}.small{grid-template-columns:repeat(auto-fit,minmax(17rem,1fr))}
 figure{margin:0;padding:.8rem;background:var(--card);border-radius:.5rem;break-inside:avoid}svg{width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:var(--faint)}
@@ -24,7 +24,7 @@ text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-
 .line.s0,.whisker.s0{stroke:var(--s0)}.line.s1,.whisker.s1{stroke:var(--s1)}.line.s2,.whisker.s2{stroke:var(--s2)}.line.s3,.whisker.s3{stroke:var(--s3)}.line.s4,.whisker.s4{stroke:var(--s4)}.line.s5,.whisker.s5{stroke:var(--s5)}
 .mark.s0,.label.s0{fill:var(--s0)}.mark.s1,.label.s1{fill:var(--s1)}.mark.s2,.label.s2{fill:var(--s2)}.mark.s3,.label.s3{fill:var(--s3)}.mark.s4,.label.s4{fill:var(--s4)}.mark.s5,.label.s5{fill:var(--s5)}
 .p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}.key{display:inline-block;margin-right:1.2rem;font-weight:600}.key svg{display:inline-block;width:12px;height:12px;margin-right:.35rem;vertical-align:-1px}
-.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}th,td{padding:.25rem .6rem;text-align:right;border-bottom:1px solid var(--grid);white-space:nowrap}th{color:var(--faint);font-weight:600;vertical-align:bottom}
+.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.76rem;font-variant-numeric:tabular-nums}th,td{padding:.2rem .38rem;text-align:right;border-bottom:1px solid var(--grid);white-space:nowrap}th{color:var(--faint);font-weight:600;vertical-align:bottom}
 td.text,th.text{text-align:left}td.wrap{white-space:normal;text-align:left}tr.first td{border-top:2px solid var(--grid)}td.best{font-weight:700}dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem}dt{color:var(--faint)}dd{margin:0;overflow-wrap:anywhere}
 pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;font-size:.85rem}@media print{body{max-width:none;padding:0;font-size:11px}figure,pre{border:1px solid var(--grid)}.scroll{overflow:visible}table{font-size:8px}th,td{padding:.15rem .3rem}}
 )css";
@@ -73,8 +73,9 @@ std::string figure_of(const std::string& svg, const std::string& caption = "") {
   return "<figure>\n" + svg + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") + "</figure>\n";
 }
 
-std::string bytes_plot(const Chart& chart, const char* figure, const std::string& title, const std::string& caption) {
-  LinePlot plot{title, "clients", "bytes per client per second", {}, {}, true, true, true, 640.0, 400.0, {}, {}};
+/// `is_total` multiplies by the clients.
+std::string bytes_plot(const Chart& chart, const char* figure, bool is_total, const std::string& title, const std::string& caption) {
+  LinePlot plot{title, "clients", is_total ? "bytes per second" : "bytes per client per second", {}, {}, true, true, true, 640.0, 400.0, {}, {}};
   for (const std::uint32_t clients : chart.clients()) plot.x_ticks.push_back({clients, std::to_string(clients)});
   for (std::size_t series = 0; series < chart.names().size(); ++series) {
     Series line{chart.names()[series], series, {}};
@@ -82,7 +83,8 @@ std::string bytes_plot(const Chart& chart, const char* figure, const std::string
       const SummaryRow* row = chart.row(series, clients);
       if (!row || !row->of(figure).mean) continue;
       const Statistic& bytes = row->of(figure);
-      line.points.push_back({static_cast<double>(clients), *bytes.mean, *bytes.min, *bytes.max});
+      const double scale = is_total ? clients : 1.0;
+      line.points.push_back({static_cast<double>(clients), scale * *bytes.mean, scale * *bytes.min, scale * *bytes.max});
     }
     plot.series.push_back(line);
   }
@@ -102,7 +104,7 @@ std::string cost_plot(const Chart& chart, double tick_rate_hz) {
     }
     plot.groups.push_back(group);
   }
-  return figure_of(to_svg(plot), "Lower is better; a tick has " + short_number(1e6 / tick_rate_hz) + " us.");
+  return figure_of(to_svg(plot), "Lower is better; a tick has " + short_number(1e3 / tick_rate_hz) + " ms.");
 }
 
 /// The five percentiles of one latency for each client count, all on one scale.
@@ -221,8 +223,9 @@ std::string report_of(const Experiment& experiment, std::span<const RunRecord> r
   html += "<h1>" + escaped(experiment.name) + ": interest management compared</h1>\n<p class=\"faint\">" + escaped(setting_text(experiment, runs)) + "</p>\n";
   html += agreement_text(runs);
   html += "<h2>Traffic and server time</h2>\n<div class=\"plots\">\n";
-  html += bytes_plot(chart, "down_bytes_per_client_per_s", "Payload to each client", "Lower is better. Mean over replications; whiskers span the lowest and highest.");
-  html += bytes_plot(chart, "wire_bytes_per_client_per_s", "On the wire, both directions, with headers", "What the network carries for one client.");
+  html += bytes_plot(chart, "down_bytes_per_client_per_s", false, "Payload to each client", "Lower is better. Mean over replications; whiskers span the lowest and highest.");
+  html += bytes_plot(chart, "wire_bytes_per_client_per_s", false, "On the wire for each client, both directions, with headers", "What a client's link carries.");
+  html += bytes_plot(chart, "wire_bytes_per_client_per_s", true, "On the wire for all clients together", "What the server's link carries.");
   html += cost_plot(chart, experiment.tick_rate_hz) + "</div>\n";
   html += "<h2>Update age</h2>\n<p class=\"faint\">From the simulated instant that a position shows to the client's receipt of it.</p>\n" + colour_key(chart) + percentile_plots(chart, "update_age_ms");
   html += "<h2>Key to effect</h2>\n<p class=\"faint\">From the instant a key was due to the client's own bat answering in its mirror.</p>\n" + colour_key(chart) + percentile_plots(chart, "key_to_effect_ms");

@@ -71,12 +71,13 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
   bots("echo \"$@\" >\"" + (folder_ / "bots.arguments").string() + "\"\n");
   experiment_.population = Population::per_client;
   experiment_.cell_size = 2.5;
+  experiment_.duration_s = experiment_.warm_up_s = 0.25;
   run();
   std::ostringstream serve_text, bots_text;
   serve_text << std::ifstream(folder_ / "serve.arguments").rdbuf();
   bots_text << std::ifstream(folder_ / "bots.arguments").rdbuf();
   EXPECT_THAT(serve_text.str(), HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
-                                          "--rate 30 --duration 0.2"));
+                                          "--rate 30 --duration 0.5 --warm-up 0.25"));
   EXPECT_THAT(bots_text.str(), AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --plan "), HasSubstr("--view 0.05")));
 }
 
@@ -120,7 +121,7 @@ TEST_F(CampaignTest, AMissingOrBrokenReportIsNamed) {
 
 TEST_F(CampaignTest, AProgramThatIsNotThereCannotBeStarted) {
   settings_.serve = folder_ / "nothing";
-  EXPECT_THROW(run_cell(settings_, experiment_, cell_, "keys"), std::system_error);
+  EXPECT_THAT(run().why_invalid, AllOf(HasSubstr("cannot start"), HasSubstr("No such file")));
 }
 
 TEST_F(CampaignTest, AllCellsAreRunInOrderAndAppendedToTheRuns) {
