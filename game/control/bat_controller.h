@@ -1,0 +1,37 @@
+// Turns the keys that a player holds into the thrust of a bat.
+#pragma once
+
+#include <cstdint>
+
+#include "game/model/key.h"
+#include "game/physics/body.h"
+
+namespace rink::game {
+
+/// One player's hands. Each held key adds the bat's thrust in its direction, as the paper accumulates forces, so opposed keys cancel and two neighbours push diagonally.
+class BatController {
+ public:
+  explicit BatController(double thrust) : thrust_(thrust) {}
+
+  /// Counts the input, whether or not it changes anything: a key that is down may be pressed again.
+  void press(Key key, bool is_down) {
+    keys_.set(key, is_down);
+    ++input_count_;
+  }
+  void release_all() { keys_ = {}; }
+
+  /// m/s^2
+  physics::Vector2 thrust() const {
+    const auto along = [this](Key plus, Key minus) { return thrust_ * (static_cast<double>(keys_.is_down(plus)) - static_cast<double>(keys_.is_down(minus))); };
+    return {along(Key::right, Key::left), along(Key::up, Key::down)};
+  }
+  const KeysHeld& keys() const { return keys_; }
+  std::uint32_t input_count() const { return input_count_; }
+
+ private:
+  double thrust_;
+  KeysHeld keys_;
+  std::uint32_t input_count_ = 0;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,126 @@
+// The game: makes all entities from a scene, applies what players do at the exact instant, keeps the score, and tells observers what changed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/control/bat_controller.h"
+#include "game/model/scene.h"
+#include "game/physics/world.h"
+
+namespace rink::game {
+
+/// An entity is a body of the game's world; a bat that left and came back is a new one.
+using EntityId = physics::BodyId;
+
+/// What an entity is for as long as it exists.
+struct Entity {
+  EntityId id;
+  physics::BodyKind kind = physics::BodyKind::puck;
+  Team team = Team::none;                ///< of bats
+  Vector2 half_extent{0.0, 0.0};         ///< m; both the radius for discs
+  std::optional<std::uint32_t> player;   ///< of bats
+};
+
+/// `team` put `puck` into the other's goal at `time` [s].
+struct ScoredGoal {
+  double time = 0.0;
+  EntityId puck;
+  Team team = Team::none;
+};
+
+struct Score {
+  std::uint32_t left = 0, right = 0;
+  friend bool operator==(const Score&, const Score&) = default;
+};
+
+/// Factory and mediator. Knows no clock: `advance` is told how far. What happens depends on the scene and the inputs alone, never on how often or how far
+/// `advance` is called. Of one instant's happenings, motion and goals come first, then face-offs, then inputs in order of player, each player's in order of submission.
+class Game {
+ public:
+  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted.
+  explicit Game(const Scene& scene);
+
+  /// Queues `event` for its own instant, which must be finite and not before now(); its player must have a bat in the scene (both asserted). Keys for a bat that is not there
+  /// at that instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if that is taken, at the nearest free place, and tries again
+  /// every `placement_retry` seconds when there is none.
+  void submit(const InputEvent& event);
+
+  /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks still move, but goals count no more and scored pucks stay out.
+  void advance(double until);
+
+  static constexpr double placement_retry = 0.1;  ///< s
+
+  double now() const { return world_.now(); }
+  const physics::World& world() const { return world_; }
+  const MatchRules& rules() const { return rules_; }
+
+  /// All that is there now, in order of id. A scored puck is still there, out of play, until its face-off.
+  std::span<const Entity> entities() const { return entities_; }
+  bool is_there(EntityId entity) const;
+  const Entity& entity(EntityId entity) const;  ///< which must be there
+  Vector2 position(EntityId entity) const { return world_.position(entity); }  ///< at now() [m]
+  Vector2 velocity(EntityId entity) const { return world_.velocity(entity); }  ///< at now() [m/s]
+
+  /// Bats of the scene, there or not.
+  std::uint32_t player_count() const { return static_cast<std::uint32_t>(seats_.size()); }
+  std::optional<EntityId> bat(std::uint32_t player) const { return seats_[player].entity; }
+  const KeysHeld& keys_held(std::uint32_t player) const { return seats_[player].controller.keys(); }
+  /// Key events that `player`'s bat has felt since the start.
+  std::uint32_t input_count(std::uint32_t player) const { return seats_[player].controller.input_count(); }
+
+  const Score& score() const { return score_; }
+  bool is_over() const { return is_over_; }
+
+  /// What the last `advance` did, each in the order in which it happened; valid until the next. What was there from the start is in none of them.
+  std::span<const Entity> spawned() const { return spawned_; }
+  std::span<const Entity> removed() const { return removed_; }
+  std::span<const ScoredGoal> scored() const { return scored_; }
+
+  /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for equal games.
+  std::uint64_t hash() const;
+
+ private:
+  struct Seat {
+    Bat bat;
+    BatController controller;
+    std::optional<EntityId> entity;
+  };
+  struct QueuedInput {
+    InputEvent event;
+    std::uint64_t number;  ///< of submission
+  };
+  struct FaceOff {
+    double time;
+    EntityId puck;
+    Team conceding;
+  };
+
+  EntityId spawn(const Entity& entity);
+  void spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity);
+  void play_until(double until);
+  void count_goal(const physics::Goal& goal);
+  void face_off_until(double until);
+  void face_off(const FaceOff& due);
+  void apply_inputs_until(double until);
+  void apply(const InputEvent& event);
+  void enter(std::uint32_t player);
+  void leave(std::uint32_t player);
+  double next_instant(double until) const;
+
+  physics::World world_;
+  MatchRules rules_;
+  std::vector<Entity> entities_;
+  std::vector<Seat> seats_;
+  std::vector<QueuedInput> inputs_;  ///< a heap, earliest first
+  std::uint64_t submitted_ = 0;
+  std::vector<FaceOff> face_offs_;   ///< ordered by time, then puck
+  Score score_;
+  bool is_over_ = false;
+  std::vector<Entity> spawned_, removed_;
+  std::vector<ScoredGoal> scored_;
+};
+
+}  // namespace rink::game

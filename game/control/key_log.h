@@ -1,0 +1,41 @@
+// A recorded log of everything the players did: enough to play the very same game again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/model/scene.h"
+
+namespace rink::game {
+
+/// Which game was played and what was done in it. Text: a line `rink-keys 1`, one line each for scene, seed and (if known) bats and fingerprint, then one line
+/// per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for down and up, the key.
+struct KeyLog {
+  std::string scene;                         ///< as given to load_scene
+  std::uint64_t seed = 1;
+  std::optional<std::uint32_t> bats;         ///< of the scaled scene
+  std::optional<std::uint64_t> fingerprint;  ///< of the scene
+  std::vector<InputEvent> events;            ///< ordered by time; events of one instant in the order in which they are to be submitted
+  friend bool operator==(const KeyLog&, const KeyLog&) = default;
+};
+
+/// The log's header for `scene`; its events are still to come.
+KeyLog key_log_for(const Scene& scene);
+
+void write_key_log(std::ostream& stream, const KeyLog& log);
+/// Throws SceneError if the file cannot be written.
+void write_key_log(const std::filesystem::path& file, const KeyLog& log);
+
+/// Throws SceneError naming file, line, what stands there and what was expected.
+KeyLog read_key_log(const std::filesystem::path& file);
+/// As above; `name` is named in errors.
+KeyLog read_key_log(std::istream& stream, const std::string& name);
+
+/// Throws SceneError, naming `file`, if `log` has players that `scene` has no bats for, or was recorded in another scene.
+void require_fit(const KeyLog& log, const Scene& scene, const std::string& file);
+
+}  // namespace rink::game
