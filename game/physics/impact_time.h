@@ -74,8 +74,9 @@ namespace detail {
 /// The time in which a gap cannot close: `rate` is its growth, `closing` bounds its acceleration towards 0. Infinite if it never can.
 inline double safe_step(double distance, double rate, double closing) {
   const double root = std::sqrt(rate * rate + 2.0 * closing * distance);
-  if (rate <= 0.0) return root - rate > 0.0 ? 2.0 * distance / (root - rate) : std::numeric_limits<double>::infinity();
-  return closing > 0.0 ? (rate + root) / closing : std::numeric_limits<double>::infinity();
+  if (rate > 0.0) return closing > 0.0 ? (rate + root) / closing : std::numeric_limits<double>::infinity();
+  if (root - rate > 0.0) return 2.0 * distance / (root - rate);
+  return closing > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace detail
