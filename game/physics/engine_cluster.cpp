@@ -9,6 +9,7 @@ namespace {
 constexpr std::uint32_t slow_impacts_max = 8;     // within contact_time, before a hop
 constexpr std::uint32_t impacts_max = 64;         // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
+constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
 bool Engine::is_pressed_hard(std::uint32_t body, Partner p, double approach, double time) const {
@@ -43,7 +44,8 @@ bool Engine::hop(const Contact& c, double approach, double time) {
   for (const std::uint32_t body : cluster_) cluster_velocities_.push_back(velocity_of(body));
   double speed = 0.0;
   for (const Vector2& velocity : cluster_velocities_) speed = std::max(speed, velocity.norm());
-  solve_cluster(std::max(std::min(0.5 * thrust_max * contact_time, 0.5 * rest_speed), 1e-14 * speed));
+  if (thrust_max == 0.0 && speed < creep_speed) std::fill(cluster_velocities_.begin(), cluster_velocities_.end(), Vector2(0.0, 0.0));
+  else solve_cluster(std::max(std::min(0.5 * thrust_max * contact_time, 0.5 * rest_speed), 1e-12 * speed));
   for (std::size_t place = 0; place < cluster_.size(); ++place) {
     bodies_[cluster_[place]].vx = cluster_velocities_[place].x();
     bodies_[cluster_[place]].vy = cluster_velocities_[place].y();
@@ -106,6 +108,7 @@ void Engine::solve_cluster(double separation) {
   const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[cluster_[place]].inverse_mass; };
   double scale = separation;
   for (const Vector2& velocity : cluster_velocities_) scale = std::max(scale, velocity.norm());
+  const double accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * scale;
   for (ClusterContact& c : cluster_contacts_) c.impulse = 0.0;
   for (int sweep = 0; sweep < 500; ++sweep) {
     double change = 0.0;
@@ -119,7 +122,7 @@ void Engine::solve_cluster(double separation) {
       if (c.partner != fixed_place) cluster_velocities_[c.partner] -= step * other * c.normal;
       change = std::max(change, std::abs(step) * (own + other));
     }
-    if (change <= 1e-12 * scale) return;
+    if (change <= accuracy) return;
   }
 }
 
