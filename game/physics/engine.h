@@ -175,7 +175,7 @@ class Engine {
 
   // engine_cluster.cpp
   bool is_pressed_hard(std::uint32_t body, Partner partner, double approach, double time) const;
-  bool hop(const Contact& contact, double approach, double time);
+  bool hop(const Contact& contact, double approach, double pressing, double time);
   void gather(const Contact& contact, double speed_max, double time);
   void add_contact(std::uint32_t place, Partner partner, double speed_max, double time);
   std::uint32_t place_in_cluster(std::uint32_t body, double time);

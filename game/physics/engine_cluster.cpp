@@ -21,14 +21,16 @@ bool Engine::is_pressed_hard(std::uint32_t body, Partner p, double approach, dou
   return is_worn(body) || (!is_fixed(p) && is_worn(p));
 }
 
-/// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all its contacts by a little: half of what its thrust builds up within
-/// `contact_time`. False, with nothing done to velocities, if an ordinary impact serves: no thrust and nothing lost, or a lone contact.
-bool Engine::hop(const Contact& c, double approach, double time) {
+/// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all its contacts by a little: half of what its thrust, or the difference
+/// in drag that closes `c` by `pressing`, builds up within `contact_time`. False, with nothing done to velocities, if an ordinary impact serves: nothing presses, and
+/// nothing is lost or the contact is alone.
+bool Engine::hop(const Contact& c, double approach, double pressing, double time) {
   gather(c, std::max(rest_speed, 2.0 * approach), time);
   double thrust_max = 0.0, given_back = 1.0;
   for (const std::uint32_t body : cluster_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
   for (const ClusterContact& contact : cluster_contacts_) given_back = std::min(given_back, contact.restitution);
-  if (thrust_max == 0.0 && (given_back == 1.0 || cluster_contacts_.size() < 2)) return false;
+  const double pressure = std::max(thrust_max, pressing);
+  if (pressure <= 0.0 && (given_back == 1.0 || cluster_contacts_.size() < 2)) return false;
   ++counters_.hops;
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : cluster_) {
@@ -45,7 +47,7 @@ bool Engine::hop(const Contact& c, double approach, double time) {
   double speed = 0.0;
   for (const Vector2& velocity : cluster_velocities_) speed = std::max(speed, velocity.norm());
   if (thrust_max == 0.0 && speed < creep_speed) std::fill(cluster_velocities_.begin(), cluster_velocities_.end(), Vector2(0.0, 0.0));
-  else solve_cluster(std::max(std::min(0.5 * thrust_max * contact_time, 0.5 * rest_speed), 1e-12 * speed));
+  else solve_cluster(std::max(std::clamp(0.5 * pressure * contact_time, 0.0, 0.5 * rest_speed), 1e-12 * speed));
   for (std::size_t place = 0; place < cluster_.size(); ++place) {
     bodies_[cluster_[place]].vx = cluster_velocities_[place].x();
     bodies_[cluster_[place]].vy = cluster_velocities_[place].y();

@@ -52,7 +52,7 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
   if (approach < rest_speed || given_back < 1.0) {
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
-    if (is_pressed_hard(body, p, approach, time) && hop(c, approach, time)) return;
+    if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
   }
   bounce(c, approach, given_back, time);
 }
