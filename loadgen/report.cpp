@@ -13,7 +13,7 @@ namespace {
 
 // Line colours are Okabe and Ito's colour-blind-safe set (2008), lightened for the dark page; markers differ in shape as well.
 constexpr const char* style_sheet = R"css(
-:root{--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--s0:#0072b2;--s1:#d55e00;--s2:#008a63;--s3:#b3498a;--s4:#996600;--s5:#3d7ea6;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9}
+:root{color-scheme:light dark;--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--s0:#0072b2;--s1:#d55e00;--s2:#008a63;--s3:#b3498a;--s4:#996600;--s5:#3d7ea6;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9}
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#9ccbe8;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9}}
 *{box-sizing:border-box}body{margin:0 auto;max-width:80rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
 h1{font-size:1.6rem;margin:0 0 .2rem}h2{font-size:1.15rem;margin:2rem 0 .5rem}p{margin:.3rem 0;max-width:60rem}.faint{color:var(--faint)}.warn{color:var(--warn);font-weight:600}
@@ -29,9 +29,9 @@ td.text,th.text{text-align:left}td.wrap{white-space:normal;text-align:left}tr.fi
 pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;font-size:.85rem}@media print{body{max-width:none;padding:0;font-size:11px}figure,pre{border:1px solid var(--grid)}.scroll{overflow:visible}table{font-size:8px}th,td{padding:.15rem .3rem}}
 )css";
 
-/// Mode, policy and scheme: what one line of a plot stands for.
-std::string series_name(const SummaryRow& row, bool names_mode, bool names_policy) {
-  return row.scheme + (names_policy ? ", " + row.policy : "") + (names_mode ? ", " + row.mode : "");
+/// What one line of a plot stands for; what is empty is not named.
+std::string series_name(const std::string& scheme, const std::string& policy, const std::string& mode) {
+  return scheme + (policy.empty() ? "" : ", " + policy) + (mode.empty() ? "" : ", " + mode);
 }
 
 /// The rows together with how their lines are called and drawn.
@@ -44,8 +44,10 @@ class Chart {
       policies.insert(row.policy);
       clients_.insert(row.clients);
     }
+    names_mode_ = modes.size() > 1;
+    names_policy_ = policies.size() > 1;
     for (const SummaryRow& row : rows_) {
-      const std::string name = series_name(row, modes.size() > 1, policies.size() > 1);
+      const std::string name = series_name(row.scheme, names_policy_ ? row.policy : "", names_mode_ ? row.mode : "");
       if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
       row_names_.push_back(name);
     }
@@ -54,6 +56,11 @@ class Chart {
   const std::vector<SummaryRow>& rows() const { return rows_; }
   const std::set<std::uint32_t>& clients() const { return clients_; }
   const std::vector<std::string>& names() const { return names_; }
+
+  /// The name of the line that `run` belongs to: mode and policy only where there are several.
+  std::string name_of_run(const RunRecord& run) const {
+    return series_name(run.cell.scheme, names_policy_ ? run.cell.policy : "", names_mode_ ? run.cell.mode : "");
+  }
 
   /// The row of line `series` at `clients`, or null.
   const SummaryRow* row(std::size_t series, std::uint32_t clients) const {
@@ -67,6 +74,7 @@ class Chart {
   std::vector<SummaryRow> rows_;
   std::set<std::uint32_t> clients_;
   std::vector<std::string> names_, row_names_;
+  bool names_mode_ = false, names_policy_ = false;
 };
 
 std::string figure_of(const std::string& svg, const std::string& caption = "") {
@@ -154,10 +162,9 @@ std::string cell(const std::optional<double>& value, int decimals, double scale 
   return std::string("<td class=\"") + classes + "\">" + text + "</td>";
 }
 
-std::string table_row(const RunRecord& run, bool is_first_of_group) {
+std::string table_row(const RunRecord& run, const std::string& name, bool is_first_of_group) {
   std::string html = std::string("<tr") + (is_first_of_group ? " class=\"first\"" : "") + "><td>" + std::to_string(run.cell.clients) + "</td><td class=\"text\">" +
-                     escaped(run.cell.scheme) + "</td><td class=\"text\">" + escaped(run.cell.mode) + "</td><td class=\"text\">" + escaped(run.cell.policy) +
-                     "</td><td>" + std::to_string(run.cell.seed) + "</td>";
+                     escaped(name) + "</td><td>" + std::to_string(run.cell.seed) + "</td>";
   html += cell(run.down_bytes_per_client_per_s, 2, 1e-3) + cell(run.up_bytes_per_client_per_s, 2, 1e-3) + cell(run.wire_bytes_per_client_per_s, 2, 1e-3);
   html += cell(run.update_age_ms.p50, 2) + cell(run.update_age_ms.p99, 2) + cell(run.key_to_effect_ms.p50, 2) + cell(run.key_to_effect_ms.p99, 2);
   html += cell(run.ticks_on_time_fraction, 2, 100.0) + cell(run.physics_us_per_tick, 1) + cell(run.filter_us_per_tick, 1) + cell(run.send_us_per_tick, 1);
@@ -165,13 +172,12 @@ std::string table_row(const RunRecord& run, bool is_first_of_group) {
   return html;
 }
 
-std::string all_cells(std::span<const RunRecord> runs) {
+std::string all_cells(std::span<const RunRecord> runs, const Chart& chart) {
   std::string html =
-      "<h2>All runs</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">scheme</th><th class=\"text\">mode</th><th "
-      "class=\"text\">policy</th><th>seed</th><th>down<br/>kB/s/client</th><th>up<br/>kB/s/client</th><th>wire<br/>kB/s/client</th><th>update age<br/>p50 "
+      "<h2>All runs</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">filter</th><th>seed</th><th>down<br/>kB/s/client</th><th>up<br/>kB/s/client</th><th>wire<br/>kB/s/client</th><th>update age<br/>p50 "
       "ms</th><th>p99 ms</th><th>key to effect<br/>p50 ms</th><th>p99 ms</th><th>on time<br/>%</th><th>physics<br/>us/tick</th><th>filter<br/>us/tick</th>"
       "<th>send<br/>us/tick</th><th class=\"text\">state hash</th><th class=\"text\">valid</th></tr></thead>\n<tbody>\n";
-  for (std::size_t i = 0; i < runs.size(); ++i) html += table_row(runs[i], i > 0 && runs[i].cell.clients != runs[i - 1].cell.clients);
+  for (std::size_t i = 0; i < runs.size(); ++i) html += table_row(runs[i], chart.name_of_run(runs[i]), i > 0 && runs[i].cell.clients != runs[i - 1].cell.clients);
   return html + "</tbody></table></div>\n";
 }
 
@@ -229,7 +235,7 @@ std::string report_of(const Experiment& experiment, std::span<const RunRecord> r
   html += cost_plot(chart, experiment.tick_rate_hz) + "</div>\n";
   html += "<h2>Update age</h2>\n<p class=\"faint\">From the simulated instant that a position shows to the client's receipt of it.</p>\n" + colour_key(chart) + percentile_plots(chart, "update_age_ms");
   html += "<h2>Key to effect</h2>\n<p class=\"faint\">From the instant a key was due to the client's own bat answering in its mirror.</p>\n" + colour_key(chart) + percentile_plots(chart, "key_to_effect_ms");
-  html += all_cells(runs) + invalid_runs(runs) + definitions + provenance_text(experiment, provenance);
+  html += all_cells(runs, chart) + invalid_runs(runs) + definitions + provenance_text(experiment, provenance);
   return html + "</body>\n</html>\n";
 }
 
