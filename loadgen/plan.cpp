@@ -26,47 +26,49 @@ class RandomStream {
   std::uint64_t state_;
 };
 
+constexpr game::Key keys_of_axis[2][2] = {{game::Key::left, game::Key::right}, {game::Key::up, game::Key::down}};
+
 /// An exponential wait that is never below `shortest_s` and keeps the mean, in whole microseconds: a last-bit difference between two libraries'
 /// logarithms cannot reach the plan.
 std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
   return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform())) * 1e6);
 }
 
-void plan_axis(std::vector<PlannedKey>& keys, std::uint64_t seed, std::uint32_t player, int axis, double duration_s, const PressHabits& habits) {
-  RandomStream random(seed, 2 * std::uint64_t{player} + static_cast<std::uint64_t>(axis));
+void plan_axis(std::vector<game::InputEvent>& keys, std::uint64_t seed, std::uint32_t player, std::size_t axis, double duration_s, const PressHabits& habits) {
+  RandomStream random(seed, 2 * std::uint64_t{player} + axis);
   const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
   std::int64_t now_us = 0;
   while (true) {
     now_us += wait_us(random, habits.pause_mean_s, habits.shortest_s);
     if (now_us >= end_us) return;
-    const auto key = static_cast<PlannedDirection>(2 * axis + static_cast<int>(random.next() >> 63));
-    keys.push_back({static_cast<double>(now_us) / 1e6, player, key, true});
+    const game::Key key = keys_of_axis[axis][random.next() >> 63];
+    keys.push_back({static_cast<double>(now_us) / 1e6, player, game::InputKind::key_down, key});
     now_us += wait_us(random, habits.press_mean_s, habits.shortest_s);
     if (now_us >= end_us) return;
-    keys.push_back({static_cast<double>(now_us) / 1e6, player, key, false});
+    keys.push_back({static_cast<double>(now_us) / 1e6, player, game::InputKind::key_up, key});
   }
 }
 
-void sort_by_time(std::vector<PlannedKey>& keys) {
-  std::sort(keys.begin(), keys.end(), [](const PlannedKey& a, const PlannedKey& b) {
+void sort_by_time(std::vector<game::InputEvent>& keys) {
+  std::sort(keys.begin(), keys.end(), [](const game::InputEvent& a, const game::InputEvent& b) {
     return std::tuple(a.time, a.player, a.key) < std::tuple(b.time, b.player, b.key);
   });
 }
 
 }  // namespace
 
-std::vector<PlannedKey> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits) {
+std::vector<game::InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits) {
   assert(habits.shortest_s > 0.0 && habits.press_mean_s > habits.shortest_s && habits.pause_mean_s > habits.shortest_s);
-  std::vector<PlannedKey> keys;
-  for (const int axis : {0, 1}) plan_axis(keys, seed, player, axis, duration_s, habits);
+  std::vector<game::InputEvent> keys;
+  for (const std::size_t axis : {0u, 1u}) plan_axis(keys, seed, player, axis, duration_s, habits);
   sort_by_time(keys);
   return keys;
 }
 
-std::vector<PlannedKey> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits) {
-  std::vector<PlannedKey> keys;
+std::vector<game::InputEvent> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits) {
+  std::vector<game::InputEvent> keys;
   for (std::uint32_t player = 0; player < players; ++player) {
-    const std::vector<PlannedKey> own = random_player_plan(seed, player, duration_s, habits);
+    const std::vector<game::InputEvent> own = random_player_plan(seed, player, duration_s, habits);
     keys.insert(keys.end(), own.begin(), own.end());
   }
   sort_by_time(keys);

@@ -4,19 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "game/model/key.h"
+
 namespace rink::loadgen {
-
-/// The four keys of a bat, in the order of their codes.
-enum class PlannedDirection : std::uint8_t { left, right, up, down };
-
-/// One key going down or up. The run never changes it: a bot that is late is late, its plan is not (open loop).
-struct PlannedKey {
-  double time = 0.0;  ///< [s] since the start of play, a whole number of microseconds
-  std::uint32_t player = 0;
-  PlannedDirection key = PlannedDirection::left;
-  bool is_down = false;
-  friend bool operator==(const PlannedKey&, const PlannedKey&) = default;
-};
 
 /// How a player's thumbs behave. Each of the two axes is its own alternation of pauses and presses, both exponential, so at most two keys are held and
 /// never two opposed ones; the defaults give 3.3 key events per second and player (2 axes x 2 events per 1.2 s).
@@ -26,11 +16,12 @@ struct PressHabits {
   double shortest_s = 0.03;  ///< no press and no pause is shorter: nobody's fingers are faster
 };
 
-/// The keys of `players` players within [0, duration_s), ordered by (time, player, key). The same arguments give the same keys on every machine, and
+/// The keys of `players` players within [0, duration_s) seconds of play, ordered by (time, player, key), at whole microseconds. A run never changes them: a
+/// bot that is late is late, its plan is not (open loop). The same arguments give the same keys on every machine, and
 /// player k's keys depend on `seed` and k alone: neither on how many others play nor (but for the cut) on the duration. Keys held at the end stay held.
-std::vector<PlannedKey> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits = {});
+std::vector<game::InputEvent> random_plan(std::uint64_t seed, std::uint32_t players, double duration_s, const PressHabits& habits = {});
 
 /// The keys of player `player` alone, as `random_plan` gives them.
-std::vector<PlannedKey> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits = {});
+std::vector<game::InputEvent> random_player_plan(std::uint64_t seed, std::uint32_t player, double duration_s, const PressHabits& habits = {});
 
 }  // namespace rink::loadgen

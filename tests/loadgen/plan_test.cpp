@@ -15,9 +15,11 @@
 namespace rink::loadgen {
 namespace {
 
-std::vector<PlannedKey> keys_of(const std::vector<PlannedKey>& plan, std::uint32_t player) {
-  std::vector<PlannedKey> own;
-  std::copy_if(plan.begin(), plan.end(), std::back_inserter(own), [player](const PlannedKey& key) { return key.player == player; });
+bool is_down(const game::InputEvent& key) { return key.kind == game::InputKind::key_down; }
+
+std::vector<game::InputEvent> keys_of(const std::vector<game::InputEvent>& plan, std::uint32_t player) {
+  std::vector<game::InputEvent> own;
+  std::copy_if(plan.begin(), plan.end(), std::back_inserter(own), [player](const game::InputEvent& key) { return key.player == player; });
   return own;
 }
 
@@ -44,7 +46,7 @@ TEST(Plan, KeysAreOrderedInsideTheRunAndAtWholeMicroseconds) {
   const auto plan = random_plan(9, 50, 10.0);
   EXPECT_TRUE(std::is_sorted(plan.begin(), plan.end(),
                              [](const auto& a, const auto& b) { return std::tuple(a.time, a.player, a.key) < std::tuple(b.time, b.player, b.key); }));
-  for (const PlannedKey& key : plan) {
+  for (const game::InputEvent& key : plan) {
     EXPECT_GE(key.time, 0.0);
     EXPECT_LT(key.time, 10.0);
     EXPECT_EQ(key.time, std::round(key.time * 1e6) / 1e6);
@@ -53,10 +55,10 @@ TEST(Plan, KeysAreOrderedInsideTheRunAndAtWholeMicroseconds) {
 
 TEST(Plan, EveryKeyAlternatesAndOpposedKeysAreNeverHeldTogether) {
   std::map<std::uint32_t, std::array<bool, 4>> held;
-  for (const PlannedKey& key : random_plan(13, 40, 30.0)) {
+  for (const game::InputEvent& key : random_plan(13, 40, 30.0)) {
     std::array<bool, 4>& keys = held[key.player];
-    EXPECT_NE(keys[static_cast<std::size_t>(key.key)], key.is_down);
-    keys[static_cast<std::size_t>(key.key)] = key.is_down;
+    EXPECT_NE(keys[static_cast<std::size_t>(key.key)], is_down(key));
+    keys[static_cast<std::size_t>(key.key)] = is_down(key);
     EXPECT_FALSE(keys[0] && keys[1]);
     EXPECT_FALSE(keys[2] && keys[3]);
   }
@@ -69,11 +71,11 @@ TEST(Plan, PressesLastAsLongAndComeAsOftenAsTheHabitsSay) {
   const auto plan = random_plan(17, players, duration_s);
   const double cycles = players * 2 * duration_s / 1.2;  // about 16,700: the mean of as many exponentials is within 3 sigma = 2.4 %
   EXPECT_NEAR(static_cast<double>(plan.size()), 2 * cycles, 0.03 * 2 * cycles);
-  std::map<std::pair<std::uint32_t, PlannedDirection>, double> pressed_at;
+  std::map<std::pair<std::uint32_t, game::Key>, double> pressed_at;
   std::vector<double> lengths;
   std::array<double, 4> presses{};
-  for (const PlannedKey& key : plan) {
-    if (key.is_down) {
+  for (const game::InputEvent& key : plan) {
+    if (is_down(key)) {
       pressed_at[{key.player, key.key}] = key.time;
       presses[static_cast<std::size_t>(key.key)] += 1.0;
     } else {
@@ -96,9 +98,9 @@ TEST(Plan, TwoPlayersAreUncorrelated) {
   const auto is_held = [](std::uint32_t player) {
     std::vector<double> samples(2'000, 0.0);
     double since = -1.0;
-    for (const PlannedKey& key : random_player_plan(23, player, 2'000.0)) {
-      if (key.key != PlannedDirection::right) continue;
-      if (key.is_down) {
+    for (const game::InputEvent& key : random_player_plan(23, player, 2'000.0)) {
+      if (key.key != game::Key::right) continue;
+      if (is_down(key)) {
         since = key.time;
       } else {
         for (auto second = static_cast<std::size_t>(std::ceil(since)); static_cast<double>(second) < key.time; ++second) samples[second] = 1.0;
