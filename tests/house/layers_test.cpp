@@ -1,0 +1,131 @@
+// Who may know whom: fails when a folder includes what the layout forbids it to know.
+#include <map>
+#include <optional>
+
+#include "tests/house/source_tree.h"
+
+namespace rink::house {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A folder's code and the project's folders (without those below them) that it may include.
+struct Layer {
+  std::string folder;
+  Names may_know;
+};
+
+/// The most specific folder stands before those that contain it. bench and tests may include anything.
+const std::vector<Layer> layers{
+    {"im", {"im"}},
+    {"rti/transport", {"rti/transport", "rti", "im"}},
+    {"rti", {"rti", "im"}},
+    {"game/physics", {"game/physics"}},
+    {"game/model", {"game/model", "game/physics"}},
+    {"game/control", {"game/control", "game/model", "game/physics"}},
+    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"game/net", {"game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"game/view", {"game/view", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"loadgen", {"loadgen", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+};
+
+const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h"};
+const Names impure_headers{"chrono", "thread", "fstream", "iostream", "filesystem", "ctime", "time.h", "sys/time.h", "future", "random", "spdlog"};
+
+/// The load generator watches processes and instants, so it owns clocks as commands do.
+bool may_read_clocks(const SourceFile& source) {
+  return source.is_command() || source.is_in("loadgen") || source.is_in("bench") || source.is_in("tests");
+}
+
+struct Include {
+  std::string path;
+  bool is_ours;  // in quotes
+};
+
+std::optional<Include> included(const std::string& line) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
+  std::smatch match;
+  if (!std::regex_search(line, match, pattern)) return std::nullopt;
+  return Include{match[2], match[1] == "\""};
+}
+
+std::string folder_of(const std::string& path) {
+  const auto slash = path.find_last_of('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+const Layer* layer_of(const SourceFile& source) {
+  for (const Layer& layer : layers)
+    if (source.is_in(layer.folder)) return &layer;
+  return nullptr;
+}
+
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+bool starts_with_any(const std::string& path, const Names& prefixes) {
+  return std::ranges::any_of(prefixes, [&](const std::string& prefix) {
+    return path == prefix || path.starts_with(prefix + ".") || path.starts_with(prefix + "/") || (prefix.ends_with('/') && path.starts_with(prefix));
+  });
+}
+
+/// What `layer` may include from `source`; commands of the game and the load generator choose a transport.
+Names allowed(const Layer& layer, const SourceFile& source) {
+  Names names = layer.may_know;
+  if (source.is_command() && source.is_in("game")) names.push_back("rti/transport");
+  return names;
+}
+
+template <class Judge>
+void for_each_include(const Judge& judge) {
+  for (const SourceFile& source : read_sources(code_folders, code_extensions))
+    for (std::size_t i = 0; i < source.lines.size(); ++i)
+      if (const auto include = included(source.lines[i])) judge(source, i, *include);
+}
+
+TEST(Layers, EachFolderIncludesOnlyWhatItMayKnow) {
+  for_each_include([](const SourceFile& source, std::size_t line, const Include& include) {
+    const Layer* layer = layer_of(source);
+    if (layer == nullptr || !include.is_ours) return;
+    const Names names = allowed(*layer, source);
+    if (std::ranges::find(names, folder_of(include.path)) == names.end())
+      report(source, line, "\"" + include.path + "\" is not for " + layer->folder + ", which may include from: " + joined(names));
+  });
+}
+
+TEST(Layers, EveryFolderWithCodeHasItsLayer) {
+  for (const SourceFile& source : read_sources({"im", "game", "rti", "loadgen"}, code_extensions)) {
+    const Layer* layer = layer_of(source);
+    if (layer == nullptr) report(source, 0, "its folder is in no layer; add it to tests/house/layers_test.cpp");
+    else if (folder_of(source.path) != layer->folder) report(source, 0, "folders below " + layer->folder + " need a layer of their own");
+  }
+}
+
+TEST(Layers, PureFoldersDoNoInputOrOutputAndReadNoClock) {
+  for_each_include([](const SourceFile& source, std::size_t line, const Include& include) {
+    if (!source.is_in("im") && !source.is_in("game/physics")) return;
+    if (starts_with_any(include.path, impure_headers) || starts_with_any(include.path, network_headers))
+      report(source, line, "<" + include.path + "> in a pure folder: im and game/physics are handed time, seeds and bytes, they do no input or output");
+  });
+}
+
+TEST(Layers, OnlyTransportsOwnSockets) {
+  for_each_include([](const SourceFile& source, std::size_t line, const Include& include) {
+    if (source.is_in("rti/transport") || source.is_in("bench") || source.is_in("tests")) return;
+    if (starts_with_any(include.path, network_headers)) report(source, line, "<" + include.path + "> outside rti/transport, the only code that owns sockets");
+  });
+}
+
+TEST(Layers, OnlyCommandsReadClocks) {
+  static const std::regex clock(R"(\b(steady|system|high_resolution)_clock::now\b|\bclock_gettime\b|\bgettimeofday\b|\bstd::time\()");
+  for (const SourceFile& source : read_sources(code_folders, code_extensions))
+    for (std::size_t i = 0; i < source.lines.size(); ++i)
+      if (!may_read_clocks(source) && std::regex_search(source.lines[i], clock))
+        report(source, i, "reads a clock; only *_main.cpp, loadgen, bench and tests may, all others are handed time");
+}
+
+}  // namespace
+}  // namespace rink::house
