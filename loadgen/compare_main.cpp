@@ -71,12 +71,14 @@ void expect_enough_files(const Experiment& experiment) {
                         std::to_string(limit) + " are allowed: raise the hard limit (ulimit -Hn)");
 }
 
-RunnerSettings runner_settings(const Options& options, const ResultsDirectory& results) {
+/// All but the folder for the reports. Throws ExperimentError if a program is missing.
+RunnerSettings runner_settings(const Options& options) {
   RunnerSettings settings;
   const std::filesystem::path programs = options.programs.empty() ? own_folder() : std::filesystem::path(options.programs);
   settings.serve = programs / "rink-serve";
   settings.bots = programs / "rink-bots";
-  settings.directory = results.subdirectory("cells");
+  expect_program(settings.serve);
+  expect_program(settings.bots);
   settings.is_interrupted = &is_interrupted;
   pin_apart(settings, allowed_processors());
   return settings;
@@ -105,10 +107,9 @@ ExitStatus status_of(const Outcome& outcome) {
 ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
   const Experiment experiment = load_experiment(find_experiment(options.experiment), {});
   expect_enough_files(experiment);
+  RunnerSettings settings = runner_settings(options);
   ResultsDirectory results(options.out.empty() ? free_directory(".") : std::filesystem::path(options.out), options.may_replace);
-  const RunnerSettings settings = runner_settings(options, results);
-  expect_program(settings.serve);
-  expect_program(settings.bots);
+  settings.directory = results.subdirectory("cells");
   const Provenance provenance = provenance_of(command_line, wake_up_lateness());
 
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size(), experiment.warm_up_s + experiment.duration_s + 1.0);

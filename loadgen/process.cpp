@@ -160,9 +160,17 @@ std::optional<std::string> Process::line_after(const std::string& beginning) con
 }
 
 std::string Process::last_words() const {
-  std::string words = errors_text_;
-  while (!words.empty() && words.back() == '\n') words.pop_back();
-  if (words.size() > last_words_max) words = words.substr(words.size() - last_words_max);
+  std::string text = errors_text_;
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.size() > last_words_max) text.erase(0, text.size() - last_words_max);
+  std::string words;
+  for (const char letter : text) {
+    if (letter == '\n') {
+      words += " / ";
+    } else {
+      words += static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f ? '?' : letter;
+    }
+  }
   return words;
 }
 

@@ -37,7 +37,7 @@ class Process {
   const std::optional<Ending>& ending() const { return ending_; }
   /// The rest of the first line of its standard output that starts with `beginning`, once that line is complete.
   std::optional<std::string> line_after(const std::string& beginning) const;
-  /// The last lines of its standard error, at most 2 kB, without a final newline.
+  /// The last lines of its standard error, at most 2 kB, on one line: newlines become ` / `, other control characters `?`.
   std::string last_words() const;
 
   /// Asks the whole group to end (SIGTERM), waits up to `grace`, then kills it. Returns when the process is gone.

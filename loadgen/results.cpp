@@ -26,8 +26,13 @@ void make_directory(const std::filesystem::path& path) {
 }  // namespace
 
 std::filesystem::path free_directory(const std::filesystem::path& parent) {
+  const auto is_taken = [](const std::filesystem::path& path) {
+    std::error_code is_missing;
+    const auto size = std::filesystem::file_size(path / "runs.jsonl", is_missing);
+    return std::filesystem::exists(path) && (is_missing || size > 0);
+  };
   std::filesystem::path path = parent / "report";
-  for (int number = 2; std::filesystem::exists(path); ++number) path = parent / ("report-" + std::to_string(number));
+  for (int number = 2; is_taken(path); ++number) path = parent / ("report-" + std::to_string(number));
   return path;
 }
 

@@ -16,7 +16,7 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// `report`, or the first of `report-2`, `report-3`, ... in `parent` that does not exist yet.
+/// `report`, or the first of `report-2`, `report-3`, ... in `parent` that does not exist yet or was left behind without a single run.
 std::filesystem::path free_directory(const std::filesystem::path& parent);
 
 /// A folder with runs.jsonl, which grows run by run, and files that are written whole.

@@ -82,8 +82,8 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
 }
 
 TEST_F(CampaignTest, AServerThatEndsBeforeItListensIsQuoted) {
-  server("echo 'scene nowhere.toml: no such file' >&2\nexit 2\n");
-  EXPECT_THAT(run().why_invalid, AllOf(HasSubstr("ended with status 2 before it listened"), HasSubstr("nowhere.toml")));
+  server("printf 'scene nowhere.toml:\\n\\033no such file\\n' >&2\nexit 2\n");
+  EXPECT_THAT(run().why_invalid, AllOf(HasSubstr("ended with status 2 before it listened"), HasSubstr("saying: scene nowhere.toml: / ?no such file")));
 }
 
 TEST_F(CampaignTest, AServerThatNeverListensIsStopped) {
@@ -185,8 +185,12 @@ TEST(Results, ExistingResultsAreNotReplacedUnasked) {
   }
   ResultsDirectory(folder / "a", true).write("summary.csv", "x");
   EXPECT_EQ(free_directory(folder), folder / "report");
-  std::filesystem::create_directory(folder / "report");
+  { ResultsDirectory left_without_a_run(folder / "report", false); }
+  EXPECT_EQ(free_directory(folder), folder / "report");
+  ResultsDirectory(folder / "report", false).append(RunRecord{});
   EXPECT_EQ(free_directory(folder), folder / "report-2");
+  std::filesystem::create_directory(folder / "report-2");  // somebody else's
+  EXPECT_EQ(free_directory(folder), folder / "report-3");
   std::ofstream(folder / "file") << "x";
   EXPECT_THROW(ResultsDirectory(folder / "file", false), OutputError);
   std::filesystem::remove_all(folder);
