@@ -44,7 +44,7 @@ void heed_signals() {
 }
 
 struct Options {
-  std::string experiment = "default.toml";
+  std::string experiment = "default";
   std::string out, programs;
   bool may_replace = false;
 };
@@ -53,7 +53,7 @@ std::filesystem::path own_folder() { return std::filesystem::read_symlink("/proc
 
 /// The file itself if there is one, else the installed experiment of that name.
 std::filesystem::path find_experiment(const std::string& name) {
-  if (std::filesystem::exists(name)) return name;
+  if (std::filesystem::exists(name) && !std::filesystem::is_directory(name)) return name;
   const auto installed = own_folder() / "../share/rink/scenes/experiments" / (name.ends_with(".toml") ? name : name + ".toml");
   if (std::filesystem::exists(installed)) return installed.lexically_normal();
   throw ExperimentError(name + ": no such file, and no installed experiment " + installed.lexically_normal().string());

@@ -5,29 +5,12 @@
 #include <cstdio>
 #include <set>
 
+#include "loadgen/report_style.h"
 #include "loadgen/summary.h"
 #include "loadgen/svg_plot.h"
 
 namespace rink::loadgen {
 namespace {
-
-// Line colours are Okabe and Ito's colour-blind-safe set (2008), lightened for the dark page; markers differ in shape as well.
-constexpr const char* style_sheet = R"css(
-:root{color-scheme:light dark;--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--s0:#0072b2;--s1:#d55e00;--s2:#008a63;--s3:#b3498a;--s4:#996600;--s5:#3d7ea6;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9}
-@media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#9ccbe8;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9}}
-*{box-sizing:border-box}body{margin:0 auto;max-width:80rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
-h1{font-size:1.6rem;margin:0 0 .2rem}h2{font-size:1.15rem;margin:2rem 0 .5rem}p{margin:.3rem 0;max-width:60rem}.faint{color:var(--faint)}.warn{color:var(--warn);font-weight:600}
-.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(26rem,1fr));gap:1rem}.small{grid-template-columns:repeat(auto-fit,minmax(17rem,1fr))}
-figure{margin:0;padding:.8rem;background:var(--card);border-radius:.5rem;break-inside:avoid}svg{width:100%;height:auto;display:block}figcaption{font-size:.85rem;color:var(--faint)}
-text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-size:14px}.axis{fill:var(--faint)}.middle{text-anchor:middle}.end{text-anchor:end}text.small{font-size:10.5px}.label{font-weight:600}
-.grid{stroke:var(--grid);stroke-width:1}.base{stroke:var(--faint);stroke-width:1}.line{fill:none;stroke-width:2}.whisker{stroke-width:1.5;opacity:.6}.mark{stroke:var(--card);stroke-width:1}
-.line.s0,.whisker.s0{stroke:var(--s0)}.line.s1,.whisker.s1{stroke:var(--s1)}.line.s2,.whisker.s2{stroke:var(--s2)}.line.s3,.whisker.s3{stroke:var(--s3)}.line.s4,.whisker.s4{stroke:var(--s4)}.line.s5,.whisker.s5{stroke:var(--s5)}
-.mark.s0,.label.s0{fill:var(--s0)}.mark.s1,.label.s1{fill:var(--s1)}.mark.s2,.label.s2{fill:var(--s2)}.mark.s3,.label.s3{fill:var(--s3)}.mark.s4,.label.s4{fill:var(--s4)}.mark.s5,.label.s5{fill:var(--s5)}
-.p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}.key{display:inline-block;margin-right:1.2rem;font-weight:600}.key svg{display:inline-block;width:12px;height:12px;margin-right:.35rem;vertical-align:-1px}
-.scroll{overflow-x:auto}table{border-collapse:collapse;font-size:.76rem;font-variant-numeric:tabular-nums}th,td{padding:.2rem .38rem;text-align:right;border-bottom:1px solid var(--grid);white-space:nowrap}th{color:var(--faint);font-weight:600;vertical-align:bottom}
-td.text,th.text{text-align:left}td.wrap{white-space:normal;text-align:left}tr.first td{border-top:2px solid var(--grid)}td.best{font-weight:700}dl{display:grid;grid-template-columns:max-content 1fr;gap:.2rem 1rem;font-size:.9rem}dt{color:var(--faint)}dd{margin:0;overflow-wrap:anywhere}
-pre{background:var(--card);padding:.8rem;border-radius:.5rem;overflow-x:auto;font-size:.85rem}@media print{body{max-width:none;padding:0;font-size:11px}figure,pre{border:1px solid var(--grid)}.scroll{overflow:visible}table{font-size:8px}th,td{padding:.15rem .3rem}}
-)css";
 
 /// What one line of a plot stands for; what is empty is not named.
 std::string series_name(const std::string& scheme, const std::string& policy, const std::string& mode) {
@@ -174,7 +157,8 @@ std::string table_row(const RunRecord& run, const std::string& name, bool is_fir
 
 std::string all_cells(std::span<const RunRecord> runs, const Chart& chart) {
   std::string html =
-      "<h2>All runs</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">filter</th><th>seed</th><th>down<br/>kB/s/client</th><th>up<br/>kB/s/client</th><th>wire<br/>kB/s/client</th><th>update age<br/>p50 "
+      "<h2>All runs</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">filter</th><th>seed</th>"
+      "<th>down<br/>kB/s/client</th><th>up<br/>kB/s/client</th><th>wire<br/>kB/s/client</th><th>update age<br/>p50 "
       "ms</th><th>p99 ms</th><th>key to effect<br/>p50 ms</th><th>p99 ms</th><th>on time<br/>%</th><th>physics<br/>us/tick</th><th>filter<br/>us/tick</th>"
       "<th>send<br/>us/tick</th><th class=\"text\">state hash</th><th class=\"text\">valid</th></tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < runs.size(); ++i) html += table_row(runs[i], chart.name_of_run(runs[i]), i > 0 && runs[i].cell.clients != runs[i - 1].cell.clients);
@@ -203,7 +187,8 @@ std::string agreement_text(std::span<const RunRecord> runs) {
 std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
   const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
   char text[512];
-  std::snprintf(text, sizeof text, "Scene %s, %s population, %g Hz, %g s measured after %g s of warm-up, each client sees %g %% of the field; %zu of %zu cells run, %zu valid.",
+  std::snprintf(text, sizeof text,
+                "Scene %s, %s population, %g Hz, %g s measured after %g s of warm-up, each client sees %g %% of the field; %zu of %zu cells run, %zu valid.",
                 experiment.scene.c_str(), experiment.population == Population::fixed ? "fixed" : "per-client", experiment.tick_rate_hz, experiment.duration_s,
                 experiment.warm_up_s, experiment.view_fraction * 100.0, runs.size(), cells_of(experiment).size(), static_cast<std::size_t>(valid));
   return text;
@@ -225,16 +210,20 @@ constexpr const char* definitions =
 std::string report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance) {
   const Chart chart(runs);
   std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>" +
-                     escaped(experiment.name) + ": interest management compared</title>\n<style>" + style_sheet + "</style>\n</head>\n<body>\n";
+                     escaped(experiment.name) + ": interest management compared</title>\n<style>" + report_style + "</style>\n</head>\n<body>\n";
   html += "<h1>" + escaped(experiment.name) + ": interest management compared</h1>\n<p class=\"faint\">" + escaped(setting_text(experiment, runs)) + "</p>\n";
   html += agreement_text(runs);
   html += "<h2>Traffic and server time</h2>\n<div class=\"plots\">\n";
-  html += bytes_plot(chart, "down_bytes_per_client_per_s", false, "Payload to each client", "Lower is better. Mean over replications; whiskers span the lowest and highest.");
-  html += bytes_plot(chart, "wire_bytes_per_client_per_s", false, "On the wire for each client, both directions, with headers", "What a client's link carries.");
+  html += bytes_plot(chart, "down_bytes_per_client_per_s", false, "Payload to each client",
+                     "Lower is better. Mean over replications; whiskers span the lowest and highest.");
+  html += bytes_plot(chart, "wire_bytes_per_client_per_s", false, "On the wire for each client, both directions, with headers",
+                     "What a client's link carries.");
   html += bytes_plot(chart, "wire_bytes_per_client_per_s", true, "On the wire for all clients together", "What the server's link carries.");
   html += cost_plot(chart, experiment.tick_rate_hz) + "</div>\n";
-  html += "<h2>Update age</h2>\n<p class=\"faint\">From the simulated instant that a position shows to the client's receipt of it.</p>\n" + colour_key(chart) + percentile_plots(chart, "update_age_ms");
-  html += "<h2>Key to effect</h2>\n<p class=\"faint\">From the instant a key was due to the client's own bat answering in its mirror.</p>\n" + colour_key(chart) + percentile_plots(chart, "key_to_effect_ms");
+  html += "<h2>Update age</h2>\n<p class=\"faint\">From the simulated instant that a position shows to the client's receipt of it.</p>\n";
+  html += colour_key(chart) + percentile_plots(chart, "update_age_ms");
+  html += "<h2>Key to effect</h2>\n<p class=\"faint\">From the instant a key was due to the client's own bat answering in its mirror.</p>\n";
+  html += colour_key(chart) + percentile_plots(chart, "key_to_effect_ms");
   html += all_cells(runs, chart) + invalid_runs(runs) + definitions + provenance_text(experiment, provenance);
   return html + "</body>\n</html>\n";
 }
