@@ -180,6 +180,10 @@ bool exchange(Stream& stream, UpdatesMessage& message) {
   return message.records.size() == std::uint64_t{message.count} * (sizeof(std::uint32_t) + message.value_size);
 }
 
+/// The header alone, kind included, over `header_size` bytes that are already there: blocks grow before their length is known.
+void write_updates_header(std::byte* at, std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size,
+                          std::uint32_t count, std::uint32_t records_size);
+
 /// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the sender.
 struct InteractionMessage {
   static constexpr MessageKind kind = MessageKind::interaction;

@@ -1,0 +1,39 @@
+// A growing set of small numbers, one bit each.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rink::rti {
+
+/// Numbers never inserted cost nothing to ask for. Memory is one bit per number up to the greatest inserted.
+class Bitmap {
+ public:
+  void insert(std::uint32_t number) {
+    const std::size_t word = number / 64;
+    if (word >= words_.size()) words_.resize(word + 1);
+    words_[word] |= std::uint64_t{1} << number % 64;
+  }
+  void erase(std::uint32_t number) {
+    if (number / 64 < words_.size()) words_[number / 64] &= ~(std::uint64_t{1} << number % 64);
+  }
+  bool contains(std::uint32_t number) const { return (word(number / 64) >> number % 64 & 1u) != 0; }
+  /// 64 numbers at once, from 64 * `index` on.
+  std::uint64_t word(std::size_t index) const { return index < words_.size() ? words_[index] : 0; }
+  std::size_t word_count() const { return words_.size(); }
+  void clear() { words_.assign(words_.size(), 0); }
+
+  /// Calls `visit(number)` for each member in ascending order.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i)
+      for (std::uint64_t bits = words_[i]; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(i * 64 + static_cast<std::size_t>(std::countr_zero(bits))));
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace rink::rti

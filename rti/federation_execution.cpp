@@ -1,0 +1,65 @@
+// The federation execution's face; its parts do the work.
+#include "rti/federation_execution.h"
+
+#include <stdexcept>
+
+#include "rti/federation_parts.h"
+
+namespace rink::rti {
+
+const char* to_string(Violation violation) {
+  switch (violation) {
+    case Violation::malformed: return "malformed";
+    case Violation::oversized: return "oversized";
+    case Violation::wrong_phase: return "wrong phase";
+    case Violation::unknown_name: return "unknown name";
+    case Violation::undeclared: return "undeclared";
+    case Violation::not_owned: return "not owned";
+    case Violation::over_limit: return "over limit";
+    case Violation::silent: return "silent";
+    case Violation::refused: return "refused";
+  }
+  return "unknown violation";
+}
+
+namespace {
+
+std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
+  auto filter = im::make_filter(settings.filter, settings.filter_settings);
+  if (filter) return filter;
+  std::string names;
+  for (const std::string& name : im::filter_names()) names += (names.empty() ? "" : ", ") + name;
+  throw std::invalid_argument("no filter is called '" + settings.filter + "'; allowed are " + names);
+}
+
+}  // namespace
+
+FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings)
+    : parts_(std::make_unique<Parts>(fom, settings, filter_called(settings))) {}
+FederationExecution::~FederationExecution() = default;
+
+void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
+void FederationExecution::receive(ConnectionId connection, Bytes bytes) { parts_->receive(connection, bytes); }
+void FederationExecution::disconnect(ConnectionId connection, std::string_view why) { parts_->disconnect(connection, why); }
+void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
+
+void FederationExecution::match() {
+  parts_->interest_.match();
+  parts_->counters_.scope_entries = parts_->interest_.entries();
+  parts_->counters_.scope_exits = parts_->interest_.exits();
+}
+
+void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
+std::size_t FederationExecution::federate_count() const { return parts_->federate_count_; }
+std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
+const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
+const im::Filter& FederationExecution::filter() const { return parts_->interest_.filter(); }
+
+bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
+  const ObjectSlot slot = parts_->objects_.find(object);
+  if (federate.value >= parts_->slot_of_handle_.size() || slot == no_object) return false;
+  const std::uint32_t federate_slot = parts_->slot_of_handle_[federate.value];
+  return parts_->federates_[federate_slot].handle == federate && parts_->interest_.of(federate_slot).in_scope.contains(slot);
+}
+
+}  // namespace rink::rti

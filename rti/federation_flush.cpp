@@ -1,0 +1,237 @@
+// What goes out: one gathered write per destination, shared blocks without a copy.
+#include <algorithm>
+#include <cstring>
+
+#include "rti/federation_parts.h"
+
+namespace rink::rti {
+
+namespace {
+
+/// A block of updates that grows at the end of `bytes`; completed by its destructor, nothing if it stayed empty.
+class UpdatesBlock {
+ public:
+  UpdatesBlock(std::vector<std::byte>& bytes, const Fom& fom) : bytes_(bytes), fom_(fom) {}
+  ~UpdatesBlock() { close(); }
+  UpdatesBlock(const UpdatesBlock&) = delete;
+  UpdatesBlock& operator=(const UpdatesBlock&) = delete;
+
+  /// Appends what `put` appends as the values of one object.
+  template <class Put>
+  void append(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, ObjectHandle object, Put put) {
+    if (count_ == 0 || object_class != object_class_ || attributes != attributes_ || stamp != stamp_) begin(object_class, attributes, stamp);
+    Writer writer(bytes_);
+    std::uint32_t size = 0;
+    writer.number(object.value);
+    if (value_size_ == UpdatesMessage::varies) writer.number(size);
+    const std::size_t start = bytes_.size();
+    put();
+    size = static_cast<std::uint32_t>(bytes_.size() - start);
+    if (value_size_ == UpdatesMessage::varies) std::memcpy(bytes_.data() + start - sizeof size, &size, sizeof size);
+    ++count_;
+  }
+
+ private:
+  void begin(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp) {
+    close();
+    object_class_ = object_class;
+    attributes_ = attributes;
+    stamp_ = stamp;
+    value_size_ = fom_.values_size({object_class}, attributes).value_or(UpdatesMessage::varies);
+    at_ = bytes_.size();
+    bytes_.resize(at_ + UpdatesMessage::header_size);
+  }
+  void close() {
+    if (count_ == 0) return;
+    write_updates_header(bytes_.data() + at_, object_class_, attributes_, stamp_, value_size_, count_,
+                         static_cast<std::uint32_t>(bytes_.size() - at_ - UpdatesMessage::header_size));
+    count_ = 0;
+  }
+
+  std::vector<std::byte>& bytes_;
+  const Fom& fom_;
+  std::uint16_t object_class_ = 0;
+  AttributeSet attributes_;
+  Stamp stamp_;
+  std::uint32_t value_size_ = 0, count_ = 0;
+  std::size_t at_ = 0;
+};
+
+/// True if every member of the run is in scope.
+bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
+  for (std::size_t i = run.first_word; i <= run.last_word; ++i)
+    if ((run.members.word(i) & ~in_scope.word(i)) != 0) return false;
+  return true;
+}
+
+/// Calls `visit(index of the record)` for each member that is in scope and whose state doesn't go out whole anyway.
+template <class Visit>
+void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
+  if (run.slots.size() <= UpdateRun::short_run) {
+    for (std::size_t i = 0; i < run.slots.size(); ++i)
+      if (interest.in_scope.contains(run.slots[i]) && !interest.fresh.contains(run.slots[i])) visit(i);
+    return;
+  }
+  for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
+    std::uint64_t bits = run.members.word(i) & interest.in_scope.word(i) & ~interest.fresh.word(i);
+    for (; bits != 0; bits &= bits - 1) visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
+  }
+}
+
+}  // namespace
+
+void FederationExecution::Parts::flush(Outlet& outlet) {
+  runs_.seal();
+  for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
+    if (federates_[slot].is_joined) flush_federate(slot, outlet);
+  runs_.clear();
+  objects_.recycle();
+  for (const Farewell& each : farewells_) {
+    const Bytes bytes = each.bytes;
+    if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
+    outlet.drop(each.connection, each.why);
+  }
+  farewells_.clear();
+}
+
+void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outlet) {
+  Federate& federate = federates_[slot];
+  scratch_.resize(frame_header_size);
+  scratch_taken_ = 0;
+  pieces_.clear();
+  scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
+  write_scope_events(slot);
+  write_fresh_states(slot);
+  gather_runs(slot);
+  scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
+  federate.control.clear();
+  federate.tail.clear();
+  FederateInterest& interest = interest_.of(slot);
+  if (interest.has_fresh) interest.fresh.clear();
+  interest.has_fresh = false;
+  interest.events.clear();
+  if (pieces_.empty() && scratch_.size() == frame_header_size) {
+    if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
+    say(scratch_, HeartbeatMessage{});
+  }
+  send_pieces(federate, outlet);
+}
+
+void FederationExecution::Parts::write_scope_events(std::uint32_t slot) {
+  FederateInterest& interest = interest_.of(slot);
+  for (const ScopeEvent& event : interest.events) {
+    const Object& object = objects_[event.slot];
+    if (!object.is_alive) continue;  // it came and went between two flushes, or its removal is on its way
+    if (event.transition == im::Transition::left) {
+      if (interest.known.contains(event.slot)) say(scratch_, OutOfScopeMessage{object.handle.value});
+      continue;
+    }
+    if (!interest.known.contains(event.slot)) say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    interest.known.insert(event.slot);
+    say(scratch_, InScopeMessage{object.handle.value});
+  }
+}
+
+void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
+  const FederateInterest& interest = interest_.of(slot);
+  if (!interest.has_fresh) return;
+  UpdatesBlock block(scratch_, fom_);
+  interest.fresh.for_each([&](ObjectSlot fresh) {
+    const Object& object = objects_[fresh];
+    if (!object.is_alive) return;
+    const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
+    if (set.is_empty()) return;
+    block.append(object.object_class, set, object.stamp, object.handle, [&] { objects_.append(fresh, set, scratch_); });
+    ++counters_.updates_sent;
+  });
+}
+
+void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
+  const FederateInterest& interest = interest_.of(slot);
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const UpdateRun& run = runs_[i];
+    if (run.owner == slot) continue;
+    if (!interest.is_uniform) {
+      gather_cut_run(run, interest);
+      continue;
+    }
+    const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
+    if (wanted.is_empty()) continue;
+    if (wanted != run.attributes) gather_cut_run(run, interest);
+    else if (!interest.has_fresh && is_all_in_scope(run, interest.in_scope)) {
+      add_shared(run.message);
+      counters_.updates_sent += run.slots.size();
+    } else {
+      gather_run(run, interest);
+    }
+  }
+}
+
+void FederationExecution::Parts::gather_run(const UpdateRun& run, const FederateInterest& interest) {
+  const std::size_t at = scratch_.size();
+  std::uint32_t count = 0;
+  scratch_.resize(at + UpdatesMessage::header_size);
+  for_each_record(run, interest, [&](std::size_t index) {
+    const Bytes record = run.record(index);
+    scratch_.insert(scratch_.end(), record.begin(), record.end());
+    ++count;
+  });
+  if (count == 0) return scratch_.resize(at);
+  write_updates_header(scratch_.data() + at, run.object_class, run.attributes, run.stamp, run.value_size, count,
+                       static_cast<std::uint32_t>(scratch_.size() - at - UpdatesMessage::header_size));
+  counters_.updates_sent += count;
+}
+
+void FederationExecution::Parts::gather_cut_run(const UpdateRun& run, const FederateInterest& interest) {
+  UpdatesBlock block(scratch_, fom_);
+  const std::size_t value_at = run.value_size == UpdatesMessage::varies ? 8 : 4;
+  for_each_record(run, interest, [&](std::size_t index) {
+    const AttributeSet wanted = interest.told(run.slots[index], run.object_class) & run.attributes;
+    if (wanted.is_empty()) return;
+    const Bytes values = run.record(index).subspan(value_at);
+    block.append(run.object_class, wanted, run.stamp, objects_[run.slots[index]].handle, [&] {
+      for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
+        const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+        const Bytes value = fom_.value({run.object_class}, run.attributes, attribute, values);
+        scratch_.insert(scratch_.end(), value.begin(), value.end());
+      }
+    });
+    ++counters_.updates_sent;
+  });
+}
+
+void FederationExecution::Parts::take_scratch() {
+  if (scratch_.size() > scratch_taken_) pieces_.push_back({{}, scratch_taken_, scratch_.size()});
+  scratch_taken_ = scratch_.size();
+}
+
+void FederationExecution::Parts::add_shared(Bytes bytes) {
+  // A short block is cheaper copied than gathered, and a write takes only so many parts.
+  constexpr std::size_t copied_max = 512, piece_max = 64;
+  if (bytes.size() <= copied_max || pieces_.size() >= piece_max) {
+    scratch_.insert(scratch_.end(), bytes.begin(), bytes.end());
+    return;
+  }
+  take_scratch();
+  pieces_.push_back({bytes, 0, 0});
+}
+
+void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet) {
+  take_scratch();
+  gathered_.clear();
+  std::size_t size = 0;
+  for (const Piece& piece : pieces_) {
+    gathered_.push_back(piece.shared.empty() ? Bytes(scratch_).subspan(piece.scratch_from, piece.scratch_to - piece.scratch_from) : piece.shared);
+    size += gathered_.back().size();
+  }
+  if (size - frame_header_size > frame_max_to_federate)
+    return expel(federate.connection, Violation::over_limit, ResignReason::lost, "more to tell in one tick than a frame holds");
+  const auto length = static_cast<std::uint32_t>(size - frame_header_size);
+  std::memcpy(scratch_.data(), &length, sizeof length);
+  federate.last_said = now_;
+  counters_.bytes_sent += size;
+  ++counters_.frames_sent;
+  outlet.send(federate.connection, gathered_);
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,178 @@
+// Who is connected, who has joined, who waits for whom.
+#include <algorithm>
+
+#include "rti/federation_parts.h"
+
+namespace rink::rti {
+
+FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, std::unique_ptr<im::Filter> filter)
+    : fom_(fom), settings_(settings), objects_(fom), interest_(fom, objects_, std::move(filter)), interaction_subscribers_(fom.interaction_classes().size()) {}
+
+void FederationExecution::Parts::connect(ConnectionId connection) {
+  if (connection >= connections_.size()) connections_.resize(connection + 1);
+  connections_[connection] = {};
+  connections_[connection].phase = Phase::connected;
+  connections_[connection].last_heard = now_;
+}
+
+void FederationExecution::Parts::disconnect(ConnectionId connection, std::string_view) {
+  if (connection >= connections_.size()) return;
+  if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, ResignReason::lost);
+  connections_[connection] = {};
+  std::erase_if(farewells_, [connection](const Farewell& each) { return each.connection == connection; });
+}
+
+void FederationExecution::Parts::advance_clock(double now) {
+  now_ = now;
+  for (ConnectionId id = 0; id < connections_.size(); ++id) {
+    Connection& connection = connections_[id];
+    if (connection.phase == Phase::unknown) continue;
+    if (connection.has_spoken) connection.last_heard = now;
+    connection.has_spoken = false;
+    if (now - connection.last_heard > settings_.patience.lost_after_s) expel(id, Violation::silent, ResignReason::lost, "silent for too long");
+  }
+}
+
+void FederationExecution::Parts::expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why) {
+  ++counters_.drops[static_cast<std::size_t>(violation)];
+  if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, reason);
+  connections_[connection] = {};
+  farewells_.push_back({connection, std::string(why), {}});
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection, Reader& reader) {
+  JoinMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.version != protocol_version) return refuse(connection, Refusal::wrong_version), std::nullopt;
+  if (message.fom_hash != fom_.hash()) return refuse(connection, Refusal::wrong_fom), std::nullopt;
+  if (message.federation != settings_.federation) return refuse(connection, Refusal::wrong_federation), std::nullopt;
+  if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
+  if (names_.contains(std::string(message.name))) return refuse(connection, Refusal::name_taken), std::nullopt;
+  const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ == object_block_max);
+  if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
+  admit(connection, message);
+  return std::nullopt;
+}
+
+void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal) {
+  expel(connection, Violation::refused, ResignReason::misbehaved, to_string(refusal));
+  FrameWriter frame(frame_max_to_federate);
+  RefusedMessage message{static_cast<std::uint8_t>(refusal), to_string(refusal)};
+  write(frame.begin_message(measure(message)), message);
+  frame.appended();
+  farewells_.back().bytes.assign(frame.bytes().begin(), frame.bytes().end());
+}
+
+std::uint32_t FederationExecution::Parts::take_federate_slot() {
+  if (free_federates_.empty()) {
+    federates_.emplace_back();
+    return static_cast<std::uint32_t>(federates_.size() - 1);
+  }
+  const std::uint32_t slot = free_federates_.back();
+  free_federates_.pop_back();
+  return slot;
+}
+
+std::uint32_t FederationExecution::Parts::take_block() {
+  if (free_blocks_.empty()) return next_block_++;
+  const std::uint32_t block = free_blocks_.back();
+  free_blocks_.pop_back();
+  return block;
+}
+
+void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessage& message) {
+  const std::uint32_t slot = take_federate_slot();
+  Federate& federate = federates_[slot] = {};
+  federate.is_joined = true;
+  federate.connection = connection;
+  federate.handle = {next_handle_++};
+  federate.block = take_block();
+  federate.name = message.name;
+  federate.type = message.type;
+  federate.published.resize(fom_.object_classes().size());
+  federate.published_interactions.resize(fom_.interaction_classes().size());
+  federate.subscribed_interactions.resize(fom_.interaction_classes().size());
+  federate.last_said = now_;
+  slot_of_handle_.push_back(slot);
+  names_.emplace(federate.name, slot);
+  interest_.add_federate(slot);
+  connections_[connection].phase = Phase::joined;
+  connections_[connection].federate = slot;
+  ++federate_count_;
+  ++counters_.joins;
+  say(federate.control, JoinedMessage{federate.handle.value, federate.block});
+  for (Federate& other : federates_)
+    if (other.is_watching) say(other.control, FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
+}
+
+void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
+  Federate& federate = federates_[slot];
+  objects_.for_each_in_block(federate.block, [this](ObjectSlot object) { delete_object(object); });
+  interest_.remove_federate(slot);
+  if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);  // else its handles have been seen
+  names_.erase(federate.name);
+  federate.is_joined = federate.is_watching = false;
+  for (std::size_t i = 0; i < interaction_subscribers_.size(); ++i) std::erase(interaction_subscribers_[i], slot);
+  leave_points(slot);
+  for (Federate& other : federates_)
+    if (other.is_watching)
+      say(other.tail, FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
+  --federate_count_;
+  ++counters_.resigns;
+  federate = {};
+  free_federates_.push_back(slot);
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::watch(Federate& federate) {
+  if (federate.is_watching) return std::nullopt;
+  federate.is_watching = true;
+  for (const Federate& other : federates_)
+    if (other.is_joined) say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
+  return std::nullopt;
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t) {
+  RegisterSynchronizationPointMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  for (const SynchronizationPoint& point : points_)
+    if (point.label == message.label) return std::nullopt;  // it is under way: both ask for the same
+  if (points_.size() == synchronization_point_max) return Violation::over_limit;
+  SynchronizationPoint& point = points_.emplace_back();
+  point.label = message.label;
+  for (std::uint32_t i = 0; i < federates_.size(); ++i) {
+    if (!federates_[i].is_joined) continue;
+    point.members.push_back(i);
+    say(federates_[i].control, AnnounceSynchronizationPointMessage{message.label});
+  }
+  point.awaited = point.members;
+  return std::nullopt;
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::achieve_point(Reader& reader, std::uint32_t slot) {
+  SynchronizationPointAchievedMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  for (SynchronizationPoint& point : points_) {
+    if (point.label != message.label) continue;
+    std::erase(point.awaited, slot);
+    complete_points();
+    return std::nullopt;
+  }
+  return Violation::unknown_name;
+}
+
+void FederationExecution::Parts::leave_points(std::uint32_t slot) {
+  for (SynchronizationPoint& point : points_) {
+    std::erase(point.members, slot);
+    std::erase(point.awaited, slot);
+  }
+  complete_points();
+}
+
+void FederationExecution::Parts::complete_points() {
+  for (const SynchronizationPoint& point : points_)
+    if (point.awaited.empty())
+      for (const std::uint32_t member : point.members) say(federates_[member].control, FederationSynchronizedMessage{point.label});
+  std::erase_if(points_, [](const SynchronizationPoint& point) { return point.awaited.empty(); });
+}
+
+}  // namespace rink::rti

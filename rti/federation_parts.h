@@ -1,0 +1,138 @@
+// What a federation execution is made of; for its own sources only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "rti/federation_execution.h"
+#include "rti/interest.h"
+#include "rti/message.h"
+#include "rti/object_table.h"
+#include "rti/update_runs.h"
+
+namespace rink::rti {
+
+class FederationExecution::Parts {
+ public:
+  Parts(const Fom& fom, const FederationSettings& settings, std::unique_ptr<im::Filter> filter);
+
+  /// A joined federate. Vectors by class are of fixed size.
+  struct Federate {
+    bool is_joined = false, is_watching = false;
+    ConnectionId connection = 0;
+    FederateHandle handle;
+    std::uint32_t block = 0;  ///< of its objects' handles
+    std::uint32_t objects_registered = 0;
+    std::string name, type;
+    std::vector<AttributeSet> published;                                  ///< by object class
+    std::vector<bool> published_interactions, subscribed_interactions;    ///< by interaction class
+    std::vector<std::byte> control;  ///< messages that go out before this flush's updates
+    std::vector<std::byte> tail;     ///< and after them
+    double last_said = 0.0;
+  };
+  enum class Phase : std::uint8_t { unknown, connected, joined };
+  struct Connection {
+    Phase phase = Phase::unknown;
+    std::uint32_t federate = 0;  ///< slot, once joined
+    bool has_spoken = false;     ///< since the last `advance_clock`
+    double last_heard = 0.0;
+    FrameReader reader;
+  };
+  struct Farewell {
+    ConnectionId connection;
+    std::string why;
+    std::vector<std::byte> bytes;  ///< sent before the connection is dropped
+  };
+  struct SynchronizationPoint {
+    std::string label;
+    std::vector<std::uint32_t> members;  ///< slots of federates that were joined when it was registered
+    std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
+  };
+  using Outcome = std::optional<Violation>;  ///< nothing: all is well
+  static constexpr std::size_t synchronization_point_max = 256;
+
+  // Connections and membership (federation_membership.cpp).
+  void connect(ConnectionId connection);
+  void disconnect(ConnectionId connection, std::string_view why);
+  void advance_clock(double now);
+  Outcome join(ConnectionId connection, Reader& reader);
+  void refuse(ConnectionId connection, Refusal refusal);
+  void admit(ConnectionId connection, const JoinMessage& message);
+  std::uint32_t take_federate_slot();
+  std::uint32_t take_block();
+  void remove_federate(std::uint32_t slot, ResignReason reason);
+  void expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why);
+  Outcome watch(Federate& federate);
+  Outcome register_point(Reader& reader, std::uint32_t slot);
+  Outcome achieve_point(Reader& reader, std::uint32_t slot);
+  void leave_points(std::uint32_t slot);
+  void complete_points();
+
+  // What a federate says (federation_receive.cpp).
+  void receive(ConnectionId connection, Bytes bytes);
+  Outcome take_frame(ConnectionId connection, Bytes frame);
+  Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
+  Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome publish_object_class(Federate& federate, Reader& reader);
+  Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
+  Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome modify_regions(std::uint32_t slot, Reader& reader);
+  Outcome associate_region(std::uint32_t slot, Reader& reader);
+  Outcome register_object(std::uint32_t slot, Reader& reader);
+  Outcome delete_object(std::uint32_t slot, Reader& reader);
+  void delete_object(ObjectSlot object);
+  Outcome take_updates(std::uint32_t slot, Reader& reader);
+  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, Bytes record, ObjectHandle handle, Bytes values);
+  Outcome take_interaction(std::uint32_t slot, Reader& reader);
+
+  // What goes out (federation_flush.cpp).
+  void flush(Outlet& outlet);
+  void flush_federate(std::uint32_t slot, Outlet& outlet);
+  void write_scope_events(std::uint32_t slot);
+  void write_fresh_states(std::uint32_t slot);
+  void gather_runs(std::uint32_t slot);
+  void gather_run(const UpdateRun& run, const FederateInterest& interest);
+  void gather_cut_run(const UpdateRun& run, const FederateInterest& interest);
+  void send_pieces(Federate& federate, Outlet& outlet);
+
+  template <class Message>
+  static void say(std::vector<std::byte>& bytes, Message message) {
+    write(bytes, message);
+  }
+
+  const Fom& fom_;
+  FederationSettings settings_;
+  ObjectTable objects_;
+  Interest interest_;
+  UpdateRuns runs_;
+  std::vector<Connection> connections_;  ///< by id
+  std::vector<Federate> federates_;      ///< by slot
+  std::vector<std::uint32_t> free_federates_, free_blocks_;
+  std::uint32_t next_handle_ = 0, next_block_ = 0;
+  std::size_t federate_count_ = 0;
+  std::vector<std::uint32_t> slot_of_handle_;  ///< by federate handle; stale once it left, so compare
+  std::unordered_map<std::string, std::uint32_t> names_;
+  std::vector<SynchronizationPoint> points_;
+  std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
+  std::vector<Farewell> farewells_;
+  FederationCounters counters_;
+  double now_ = 0.0;
+
+  /// A part of the message to one destination: a stretch of `scratch_`, or of somebody's bytes.
+  struct Piece {
+    Bytes shared;
+    std::size_t scratch_from = 0, scratch_to = 0;
+  };
+  std::vector<std::byte> scratch_;
+  std::vector<Piece> pieces_;
+  std::size_t scratch_taken_ = 0;  ///< up to here `scratch_` is in `pieces_`
+  std::vector<Bytes> gathered_;
+  void take_scratch();
+  void add_shared(Bytes bytes);
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,247 @@
+// What federates say: checked once, here; then it is state.
+#include <algorithm>
+
+#include "rti/federation_parts.h"
+
+namespace rink::rti {
+
+using Outcome = std::optional<Violation>;
+
+void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
+  if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
+  counters_.bytes_received += bytes.size();
+  connections_[id].has_spoken = true;
+  // The reader leaves its connection meanwhile: dropping the connection must not pull it from under our feet.
+  FrameReader reader = std::move(connections_[id].reader);
+  Outcome outcome;
+  const auto limit = [&] { return connections_[id].phase == Phase::joined ? frame_max_to_rti : frame_max_to_join; };
+  const auto take = [&](Bytes frame) {
+    outcome = take_frame(id, frame);
+    return !outcome && connections_[id].phase != Phase::unknown;
+  };
+  const bool is_complete = reader.receive(bytes, limit, take);
+  if (is_complete) connections_[id].reader = std::move(reader);
+  else if (reader.is_oversized()) expel(id, Violation::oversized, ResignReason::misbehaved, "a frame longer than allowed");
+  else if (outcome) expel(id, *outcome, ResignReason::misbehaved, to_string(*outcome));
+}
+
+Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
+  ++counters_.frames_received;
+  Reader reader(frame);
+  while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
+    if (connections_[id].phase == Phase::joined) {
+      if (const Outcome outcome = take_message(id, connections_[id].federate, reader)) return outcome;
+      continue;
+    }
+    std::uint8_t kind = 0;
+    reader.number(kind);
+    if (static_cast<MessageKind>(kind) != MessageKind::join) return Violation::wrong_phase;
+    if (const Outcome outcome = join(id, reader)) return outcome;
+  }
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t slot, Reader& reader) {
+  std::uint8_t number = 0;
+  reader.number(number);
+  const auto kind = static_cast<MessageKind>(number);
+  switch (kind) {
+    case MessageKind::join: return Violation::wrong_phase;
+    case MessageKind::resign:
+      remove_federate(slot, ResignReason::resigned);
+      connections_[id] = {};
+      farewells_.push_back({id, "resigned", {}});
+      return std::nullopt;
+    case MessageKind::heartbeat: return std::nullopt;
+    case MessageKind::register_synchronization_point: return register_point(reader, slot);
+    case MessageKind::synchronization_point_achieved: return achieve_point(reader, slot);
+    case MessageKind::watch_federates: return watch(federates_[slot]);
+    case MessageKind::publish_object_class:
+    case MessageKind::subscribe_object_class:
+    case MessageKind::publish_interaction_class:
+    case MessageKind::subscribe_interaction_class: return take_declaration(slot, kind, reader);
+    case MessageKind::create_region:
+    case MessageKind::modify_regions:
+    case MessageKind::associate_region:
+    case MessageKind::delete_region: return take_region(slot, kind, reader);
+    case MessageKind::register_object:
+    case MessageKind::delete_object:
+    case MessageKind::updates:
+    case MessageKind::interaction: return take_object(slot, kind, reader);
+    default: return Violation::malformed;
+  }
+}
+
+Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  if (kind == MessageKind::publish_object_class) return publish_object_class(federates_[slot], reader);
+  if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
+  return declare_interaction(slot, kind, reader);
+}
+
+Outcome FederationExecution::Parts::publish_object_class(Federate& federate, Reader& reader) {
+  PublishObjectClassMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
+  const ObjectClassHandle object_class{message.object_class};
+  if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes))) return Violation::unknown_name;
+  federate.published[message.object_class] = AttributeSet(message.attributes);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::subscribe_object_class(std::uint32_t slot, Reader& reader) {
+  SubscribeObjectClassMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
+  const AttributeSet attributes{message.attributes};
+  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return Violation::unknown_name;
+  if (!interest_.subscribe(slot, message.object_class, attributes, {message.region})) return Violation::unknown_name;
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  PublishInteractionClassMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  const bool is_declared = message.is_declared != 0;
+  if (kind == MessageKind::publish_interaction_class) {
+    federates_[slot].published_interactions[message.interaction_class] = is_declared;
+    return std::nullopt;
+  }
+  federates_[slot].subscribed_interactions[message.interaction_class] = is_declared;
+  for (std::uint32_t i = 0; i < interaction_subscribers_.size(); ++i) {
+    auto& subscribers = interaction_subscribers_[i];
+    std::erase(subscribers, slot);
+    bool is_subscribed = false;
+    for (InteractionClassHandle each{i}; each; each = fom_.at(each).parent) is_subscribed |= federates_[slot].subscribed_interactions[each.value];
+    if (is_subscribed) subscribers.push_back(slot);
+  }
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  if (kind == MessageKind::modify_regions) return modify_regions(slot, reader);
+  if (kind == MessageKind::associate_region) return associate_region(slot, reader);
+  CreateRegionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const RegionHandle region{message.region};
+  if (kind == MessageKind::create_region) return interest_.create_region(slot, region) ? Outcome() : Violation::unknown_name;
+  if (!interest_.has_region(slot, region)) return Violation::unknown_name;
+  interest_.delete_region(slot, region);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& reader) {
+  ModifyRegionsMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  Reader records(message.records);
+  for (std::uint16_t i = 0; i < message.count; ++i) {
+    RegionBounds record;
+    if (!exchange(records, record)) return Violation::malformed;
+    if (!interest_.has_region(slot, record.region)) return Violation::unknown_name;
+    interest_.modify_region(slot, record.region, record.bounds);
+  }
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader& reader) {
+  AssociateRegionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const ObjectSlot object = objects_.find({message.object});
+  const RegionHandle region{message.region};
+  if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
+  if (objects_[object].owner != slot) return Violation::not_owned;
+  interest_.associate(object, region);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  if (kind == MessageKind::register_object) return register_object(slot, reader);
+  if (kind == MessageKind::delete_object) return delete_object(slot, reader);
+  if (kind == MessageKind::updates) return take_updates(slot, reader);
+  return take_interaction(slot, reader);
+}
+
+Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& reader) {
+  RegisterObjectMessage message;
+  Federate& federate = federates_[slot];
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
+  if (federate.published[message.object_class].is_empty()) return Violation::undeclared;
+  if (objects_.size() >= settings_.object_max || federate.objects_registered >= settings_.objects_per_federate_max) return Violation::over_limit;
+  // Handles come in order, so that a stranger can't make the table grow by naming a great one.
+  if (message.object != federate.block * object_block + federate.objects_registered) return Violation::unknown_name;
+  ++federate.objects_registered;
+  interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, message.name));
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& reader) {
+  DeleteObjectMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const ObjectSlot object = objects_.find({message.object});
+  if (object == no_object) return Violation::unknown_name;
+  if (objects_[object].owner != slot) return Violation::not_owned;
+  delete_object(object);
+  return std::nullopt;
+}
+
+void FederationExecution::Parts::delete_object(ObjectSlot object) {
+  interest_.object_deleted(object);
+  for (std::uint32_t i = 0; i < federates_.size(); ++i) {
+    if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
+    interest_.of(i).known.erase(object);
+    say(federates_[i].tail, RemoveObjectMessage{objects_[object].handle.value});
+  }
+  objects_.erase(object);
+}
+
+Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& reader) {
+  UpdatesMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
+  const ObjectClassHandle object_class{message.object_class};
+  const AttributeSet attributes{message.attributes};
+  if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty()) return Violation::unknown_name;
+  if (!federates_[slot].published[message.object_class].includes(attributes)) return Violation::undeclared;
+  if (fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies) != message.value_size) return Violation::malformed;
+  const bool is_variable = message.value_size == UpdatesMessage::varies;
+  Reader records(message.records);
+  for (std::uint32_t i = 0; i < message.count; ++i) {
+    const Bytes start = message.records.last(records.left());
+    std::uint32_t object = 0, size = message.value_size;
+    Bytes values;
+    if (!records.number(object) || (is_variable && !records.number(size)) || size > values_max || !records.rest(values, size)) return Violation::malformed;
+    if (is_variable && !fom_.values_fit(object_class, attributes, values)) return Violation::malformed;
+    if (const Outcome outcome = take_update(slot, message, start.first(start.size() - records.left()), {object}, values)) return outcome;
+  }
+  return records.is_at_end() ? Outcome() : Violation::malformed;
+}
+
+Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, Bytes record, ObjectHandle handle, Bytes values) {
+  const ObjectSlot object = objects_.find(handle);
+  if (object == no_object || objects_[object].object_class != message.object_class) return Violation::unknown_name;
+  if (objects_[object].owner != slot) return Violation::not_owned;
+  const AttributeSet attributes{message.attributes};
+  objects_.store(object, attributes, values, message.stamp);
+  runs_.append(slot, object, objects_[object], attributes, message.stamp, message.value_size, record);
+  ++counters_.updates_received;
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader& reader) {
+  InteractionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  if (!federates_[slot].published_interactions[message.interaction_class]) return Violation::undeclared;
+  ++counters_.interactions_received;
+  const std::uint32_t only = message.federate;
+  message.federate = federates_[slot].handle.value;
+  for (const std::uint32_t receiver : interaction_subscribers_[message.interaction_class]) {
+    if (receiver == slot || (only != FederateHandle::none && federates_[receiver].handle.value != only)) continue;
+    say(federates_[receiver].tail, message);
+    ++counters_.interactions_sent;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,77 @@
+// Every registered object with its latest values, in dense slots.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rti/federate_ambassador.h"
+#include "rti/fom.h"
+
+namespace rink::rti {
+
+/// Index into the table; used again some time after the object is gone.
+using ObjectSlot = std::uint32_t;
+inline constexpr ObjectSlot no_object = 0xffffffffu;
+
+struct Object {
+  ObjectHandle handle;
+  std::uint32_t owner = 0;  ///< the federate's slot
+  std::uint16_t object_class = 0;
+  bool is_alive = false;
+  bool is_filtered = false;          ///< the filter knows its region
+  RegionHandle region;               ///< its owner's, or empty
+  AttributeSet valued;               ///< attributes that have a value
+  Stamp stamp;                       ///< of the latest update
+  std::string name;
+  std::vector<std::byte> fixed;      ///< values of fixed size, at the class's offsets
+  std::vector<std::vector<std::byte>> varying;  ///< values of varying size with their length words, by attribute
+};
+
+/// Latest values serve late joiners and those who come into scope; storing one touches one object only.
+class ObjectTable {
+ public:
+  explicit ObjectTable(const Fom& fom);
+
+  ObjectSlot insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class, std::string_view name);
+  /// The slot is kept until `recycle`, so that what was said of the object this tick can still be told from what a new one says.
+  void erase(ObjectSlot slot);
+  void recycle();
+
+  ObjectSlot find(ObjectHandle handle) const;
+  Object& operator[](ObjectSlot slot) { return objects_[slot]; }
+  const Object& operator[](ObjectSlot slot) const { return objects_[slot]; }
+  ObjectSlot slot_count() const { return static_cast<ObjectSlot>(objects_.size()); }
+  std::size_t size() const { return size_; }
+  /// True if an object of this handle is or was here; handles are not used twice.
+  bool was_registered(ObjectHandle handle) const;
+  /// Calls `visit(slot)` for each living object whose handle is in `block`.
+  template <class Visit>
+  void for_each_in_block(std::uint32_t block, Visit visit) const {
+    if (block >= slots_.size()) return;
+    for (std::size_t i = 0; i < slots_[block].size(); ++i)
+      if (slots_[block][i] < gone) visit(slots_[block][i]);
+  }
+
+  /// `values` must fit `set`.
+  void store(ObjectSlot slot, AttributeSet set, Bytes values, const Stamp& stamp);
+  /// Appends the values of `set`, all of which must be valued.
+  void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
+
+ private:
+  static constexpr ObjectSlot never = no_object, gone = no_object - 1;
+  struct Layout {
+    std::vector<std::uint32_t> offsets;  ///< of fixed attributes
+    std::uint32_t fixed_size = 0;
+    bool has_varying = false;
+  };
+  std::vector<Layout> layouts_;  ///< by class
+  const Fom& fom_;
+  std::vector<Object> objects_;
+  std::vector<ObjectSlot> free_, leaving_;
+  std::vector<std::vector<ObjectSlot>> slots_;  ///< by block, then by number within it
+  std::size_t size_ = 0;
+};
+
+}  // namespace rink::rti

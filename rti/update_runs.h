@@ -1,0 +1,52 @@
+// The updates of one tick, encoded once for all who will hear of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/bitmap.h"
+#include "rti/object_table.h"
+
+namespace rink::rti {
+
+/// Updates of one owner, class, attribute set and stamp; at most one of each object.
+struct UpdateRun {
+  std::uint32_t owner = 0;
+  std::uint16_t object_class = 0;
+  AttributeSet attributes;
+  Stamp stamp;
+  std::uint32_t value_size = 0;        ///< or `UpdatesMessage::varies`
+  std::vector<std::byte> message;      ///< the whole message as it goes on the wire; true after `seal`
+  std::vector<ObjectSlot> slots;       ///< of the records, in their order
+  std::vector<std::uint32_t> offsets;  ///< of the records in `message`
+  Bitmap members;                      ///< the same slots
+  std::size_t first_word = 0, last_word = 0;  ///< of `members` that may hold any
+  std::vector<std::uint32_t> record_of;       ///< by slot: index into `slots`; for members only, after `seal` of runs longer than `short_run`
+  static constexpr std::size_t short_run = 8;
+
+  Bytes record(std::size_t index) const {
+    const std::size_t end = index + 1 < offsets.size() ? offsets[index + 1] : message.size();
+    return Bytes(message).subspan(offsets[index], end - offsets[index]);
+  }
+};
+
+/// Collects records in the order in which they came, in as few runs as that order allows. Keeps its memory from tick to tick.
+class UpdateRuns {
+ public:
+  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size, Bytes record);
+  /// Completes the headers; no `append` may follow before `clear`.
+  void seal();
+  void clear();
+  std::size_t size() const { return size_; }
+  const UpdateRun& operator[](std::size_t index) const { return runs_[index]; }
+
+ private:
+  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size);
+  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size);
+
+  std::vector<UpdateRun> runs_;
+  std::size_t size_ = 0;
+  std::vector<std::uint32_t> last_run_;  ///< by slot: 1 + the last run that has it, 0 if none
+};
+
+}  // namespace rink::rti
