@@ -98,13 +98,13 @@ class Game {
     Team conceding;
   };
 
-  EntityId spawn(const Entity& entity);
   void spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity);
   void play_until(double until);
   void count_goal(const physics::Goal& goal);
-  void face_off_until(double until);
+  void schedule(const FaceOff& due);
+  void face_off_until(double instant);
   void face_off(const FaceOff& due);
-  void apply_inputs_until(double until);
+  void apply_inputs_until(double instant);
   void apply(const InputEvent& event);
   void enter(std::uint32_t player);
   void leave(std::uint32_t player);

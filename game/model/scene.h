@@ -21,6 +21,13 @@ class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A body or population, named `body`, that has no place: a file's reader adds the line on which it stands.
+class PlacementError : public SceneError {
+ public:
+  PlacementError(std::string name, const std::string& what) : SceneError(what), body(std::move(name)) {}
+  std::string body;
+};
+
 /// Left defends the goal at x = 0.
 enum class Team : std::uint8_t { left, right, none };
 
@@ -92,7 +99,7 @@ struct Scene {
 };
 
 /// Draws `scene.bodies` anew from placed, populations and seed: equal bits on every machine. No two bodies overlap and pucks of one size are packed as
-/// densely as a hexagonal lattice allows. Throws SceneError if a placed body overlaps another or leaves the field, or if a population does not fit.
+/// densely as a hexagonal lattice allows. Throws PlacementError if a placed body overlaps another or leaves the field, or if a population does not fit.
 void populate(Scene& scene);
 
 /// The same scene with its populations drawn from another seed.

@@ -1,0 +1,171 @@
+// Goes from one instant at which something happens to the next, and lets the world move exactly in between.
+#include "game/control/game.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+
+#include "game/control/free_place.h"
+#include "game/model/state_hash.h"
+
+namespace rink::game {
+namespace {
+
+/// A heap's order: the input that is to be applied first is the greatest.
+constexpr auto is_later = [](const auto& a, const auto& b) {
+  return std::tuple(a.event.time, a.event.player, a.number) > std::tuple(b.event.time, b.event.player, b.number);
+};
+
+Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
+
+}  // namespace
+
+Game::Game(const Scene& scene) : world_(scene.world), rules_(scene.rules) {
+  for (const Post& post : scene.bodies.posts) {
+    const EntityId id = world_.add(post.body);
+    entities_.push_back({.id = id, .kind = physics::BodyKind::post, .team = Team::none, .half_extent = world_.half_extent(id), .player = std::nullopt});
+  }
+  for (const Bat& bat : scene.bodies.bats) {
+    seats_.push_back({bat, BatController(bat.thrust), std::nullopt});
+    spawn_bat(player_count() - 1, bat.body.position, bat.body.velocity);
+  }
+  for (const Puck& puck : scene.bodies.pucks) {
+    const EntityId id = world_.add(puck.body);
+    entities_.push_back({.id = id, .kind = physics::BodyKind::puck, .team = Team::none, .half_extent = world_.half_extent(id), .player = std::nullopt});
+  }
+  spawned_.clear();
+  for (const InputEvent& event : scene.keys) submit(event);
+}
+
+void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity) {
+  Seat& seat = seats_[player];
+  physics::BatSpec body = seat.bat.body;
+  body.position = position;
+  body.velocity = velocity;
+  seat.entity = world_.add(body);
+  entities_.push_back({.id = *seat.entity, .kind = physics::BodyKind::bat, .team = seat.bat.team, .half_extent = body.half_extent, .player = player});
+  spawned_.push_back(entities_.back());
+}
+
+void Game::submit(const InputEvent& event) {
+  assert(std::isfinite(event.time) && event.time >= now() && event.player < player_count());
+  inputs_.push_back({event, submitted_++});
+  std::push_heap(inputs_.begin(), inputs_.end(), is_later);
+}
+
+void Game::advance(double until) {
+  assert(std::isfinite(until) && until >= now());
+  spawned_.clear();
+  removed_.clear();
+  scored_.clear();
+  do {
+    play_until(next_instant(until));
+    face_off_until(now());
+    apply_inputs_until(now());
+  } while (now() < until);
+}
+
+/// The earliest instant at which more than motion happens, at most `until`.
+double Game::next_instant(double until) const {
+  if (!inputs_.empty()) until = std::min(until, inputs_.front().event.time);
+  if (!face_offs_.empty()) until = std::min(until, face_offs_.front().time);
+  return until;
+}
+
+/// A goal may bring the next instant forward, for its face-off is one.
+void Game::play_until(double until) {
+  while (const std::optional<physics::Goal> goal = world_.advance(until)) {
+    count_goal(*goal);
+    until = next_instant(until);
+  }
+}
+
+void Game::count_goal(const physics::Goal& goal) {
+  if (is_over_) return;
+  const Team conceding = goal.end == physics::End::left ? Team::left : Team::right, scoring = other(conceding);
+  std::uint32_t& goals = scoring == Team::left ? score_.left : score_.right;
+  ++goals;
+  scored_.push_back({goal.time, goal.puck, scoring});
+  is_over_ = rules_.goals_to_win && goals >= *rules_.goals_to_win;
+  if (is_over_) face_offs_.clear();
+  else schedule({goal.time + rules_.face_off_delay, goal.puck, conceding});
+}
+
+void Game::schedule(const FaceOff& due) {
+  const auto is_before = [](const FaceOff& a, const FaceOff& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); };
+  face_offs_.insert(std::upper_bound(face_offs_.begin(), face_offs_.end(), due, is_before), due);
+}
+
+void Game::face_off_until(double instant) {
+  while (!face_offs_.empty() && face_offs_.front().time <= instant) {
+    const FaceOff due = face_offs_.front();
+    face_offs_.erase(face_offs_.begin());
+    face_off(due);
+  }
+}
+
+void Game::face_off(const FaceOff& due) {
+  const physics::Field& field = world_.spec().field;
+  const double from_end = rules_.face_off_distance * field.length;
+  const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end, field.width / 2);
+  if (const auto place = nearest_free_disc(world_, spot, world_.radius(due.puck))) world_.place(due.puck, *place, Vector2::Zero());
+  else schedule({due.time + placement_retry, due.puck, due.conceding});
+}
+
+void Game::apply_inputs_until(double instant) {
+  while (!inputs_.empty() && inputs_.front().event.time <= instant) {
+    const InputEvent event = inputs_.front().event;
+    std::pop_heap(inputs_.begin(), inputs_.end(), is_later);
+    inputs_.pop_back();
+    apply(event);
+  }
+}
+
+void Game::apply(const InputEvent& event) {
+  if (event.kind == InputKind::enter) return enter(event.player);
+  if (event.kind == InputKind::leave) return leave(event.player);
+  Seat& seat = seats_[event.player];
+  if (!seat.entity) return;
+  seat.controller.press(event.key, event.kind == InputKind::key_down);
+  world_.set_thrust(*seat.entity, seat.controller.thrust());
+}
+
+void Game::enter(std::uint32_t player) {
+  if (seats_[player].entity) return;
+  const physics::BatSpec& home = seats_[player].bat.body;
+  if (const auto place = nearest_free_rectangle(world_, home.position, home.half_extent, home.half)) spawn_bat(player, *place, Vector2::Zero());
+  else submit({.time = now() + placement_retry, .player = player, .kind = InputKind::enter});
+}
+
+void Game::leave(std::uint32_t player) {
+  Seat& seat = seats_[player];
+  if (!seat.entity) return;
+  const auto there = std::lower_bound(entities_.begin(), entities_.end(), *seat.entity, [](const Entity& a, EntityId id) { return a.id < id; });
+  removed_.push_back(*there);
+  entities_.erase(there);
+  world_.remove(*seat.entity);
+  seat.entity.reset();
+  seat.controller.release_all();
+}
+
+bool Game::is_there(EntityId entity) const {
+  return std::binary_search(entities_.begin(), entities_.end(), Entity{.id = entity, .player = std::nullopt}, [](const Entity& a, const Entity& b) { return a.id < b.id; });
+}
+
+const Entity& Game::entity(EntityId entity) const {
+  assert(is_there(entity));
+  return *std::lower_bound(entities_.begin(), entities_.end(), entity, [](const Entity& a, EntityId id) { return a.id < id; });
+}
+
+std::uint64_t Game::hash() const {
+  StateHash hash;
+  hash.add(world_.hash());
+  for (const Entity& entity : entities_) hash.add(std::uint64_t{entity.id.index});
+  for (const Seat& seat : seats_) hash.add(std::uint64_t{seat.controller.keys().bits()} << 32 | seat.controller.input_count());
+  hash.add(std::uint64_t{score_.left} << 32 | score_.right);
+  for (const FaceOff& due : face_offs_) hash.add(due.time), hash.add(std::uint64_t{due.puck.index});
+  return hash.value();
+}
+
+}  // namespace rink::game

@@ -1,0 +1,106 @@
+// Scenes derived from scenes: another seed, another size; and what tells two scenes apart.
+#include "game/model/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/model/state_hash.h"
+
+namespace rink::game {
+namespace {
+
+using physics::BodyKind;
+
+std::uint64_t bat_total(const Scene& scene) {
+  std::uint64_t total = scene.placed.bats.size();
+  for (const Population& population : scene.populations) total += population.kind == BodyKind::bat ? population.count : 0;
+  return total;
+}
+
+void scale_places(Bodies& bodies, double factor) {
+  for (Puck& puck : bodies.pucks) puck.body.position *= factor;
+  for (Bat& bat : bodies.bats) bat.body.position *= factor;
+  for (Post& post : bodies.posts) post.body.position *= factor;
+}
+
+/// Shares `wanted` bats among the populations of bats in proportion; each gets what its cumulative share rounds to, so the sum is exact.
+void share_bats(std::vector<Population>& populations, std::uint64_t wanted) {
+  std::uint64_t total = 0, before = 0, given = 0;
+  for (const Population& population : populations) total += population.kind == BodyKind::bat ? population.count : 0;
+  for (Population& population : populations) {
+    if (population.kind != BodyKind::bat) continue;
+    before += population.count;
+    const std::uint64_t until_here = (2 * wanted * before + total) / (2 * total);
+    population.count = static_cast<std::uint32_t>(until_here - given);
+    given = until_here;
+  }
+}
+
+void add_world(StateHash& hash, const physics::WorldSpec& world) {
+  const physics::Field& field = world.field;
+  for (const double number : {field.length, field.width, field.goal_width, world.puck_drag, world.bat_drag}) hash.add(number);
+  hash.add(std::uint64_t{field.wall});
+  hash.add(std::uint64_t{field.bats_keep_to_half});
+  const std::size_t count = world.restitution.material_count();
+  hash.add(std::uint64_t{count});
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b <= a; ++b) hash.add(world.restitution(static_cast<physics::MaterialId>(a), static_cast<physics::MaterialId>(b)));
+}
+
+void add_bodies(StateHash& hash, const Bodies& bodies) {
+  for (const Post& post : bodies.posts) hash.add(post.body.position), hash.add(post.body.radius), hash.add(std::uint64_t{post.body.material});
+  hash.add(std::uint64_t{bodies.posts.size()});
+  for (const Bat& bat : bodies.bats) {
+    for (const Vector2& vector : {bat.body.position, bat.body.velocity, bat.body.half_extent}) hash.add(vector);
+    for (const double number : {bat.body.mass, bat.thrust}) hash.add(number);
+    for (const auto number : {static_cast<unsigned>(bat.body.material), static_cast<unsigned>(bat.body.half), static_cast<unsigned>(bat.team)}) hash.add(std::uint64_t{number});
+  }
+  hash.add(std::uint64_t{bodies.bats.size()});
+  for (const Puck& puck : bodies.pucks) {
+    for (const Vector2& vector : {puck.body.position, puck.body.velocity}) hash.add(vector);
+    for (const double number : {puck.body.radius, puck.body.mass}) hash.add(number);
+    hash.add(std::uint64_t{puck.body.material});
+  }
+  hash.add(std::uint64_t{bodies.pucks.size()});
+}
+
+}  // namespace
+
+const char* team_name(Team team) { return team == Team::left ? "left" : team == Team::right ? "right" : "none"; }
+
+Scene with_seed(Scene scene, std::uint64_t seed) {
+  scene.seed = seed;
+  populate(scene);
+  return scene;
+}
+
+Scene scaled_to_bats(Scene scene, std::uint32_t bat_count) {
+  const std::uint64_t total = bat_total(scene), placed = scene.placed.bats.size();
+  if (total == bat_count) return scene;
+  if (total == placed) throw SceneError("the scene " + scene.name + " has no population of bats, so it cannot have " + std::to_string(bat_count) + " bats instead of " + std::to_string(total));
+  if (bat_count < std::max<std::uint64_t>(placed, 1))
+    throw SceneError("the scene " + scene.name + " cannot have " + std::to_string(bat_count) + " bats: expected at least " + std::to_string(std::max<std::uint64_t>(placed, 1)));
+  const double area_factor = static_cast<double>(bat_count) / static_cast<double>(total), factor = std::sqrt(area_factor);
+  scene.world.field.length *= factor;
+  scene.world.field.width *= factor;
+  scene.world.field.goal_width *= factor;
+  scale_places(scene.placed, factor);
+  for (Population& population : scene.populations)
+    if (population.kind != BodyKind::bat) population.count = static_cast<std::uint32_t>(std::llround(population.count * area_factor));
+  share_bats(scene.populations, bat_count - placed);
+  std::erase_if(scene.keys, [bat_count](const InputEvent& event) { return event.player >= bat_count; });
+  populate(scene);
+  return scene;
+}
+
+std::uint64_t fingerprint(const Scene& scene) {
+  StateHash hash;
+  add_world(hash, scene.world);
+  add_bodies(hash, scene.bodies);
+  hash.add(std::uint64_t{scene.rules.goals_to_win.value_or(0)});
+  hash.add(scene.rules.face_off_delay);
+  hash.add(scene.rules.face_off_distance);
+  return hash.value();
+}
+
+}  // namespace rink::game

@@ -1,0 +1,275 @@
+// Reads the tables of a scene file in the order in which docs/scenes.md describes them.
+#include "game/model/scene_file.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "game/model/scene_table.h"
+
+namespace rink::game {
+namespace {
+
+using physics::BodyKind;
+using physics::MaterialId;
+
+constexpr std::uint64_t body_max = 10'000'000;
+
+class SceneReader {
+ public:
+  SceneReader(const toml::table& root, const std::string& file) : file_(file), root_(root, file, "the scene") {}
+
+  Scene read() {
+    root_.text("name", scene_.name);
+    root_.whole("seed", scene_.seed, 0, std::numeric_limits<std::int64_t>::max());
+    read_materials();
+    read_field();
+    read_drag();
+    read_match();
+    for (SceneTable& table : root_.tables("post")) read_post(table);
+    for (SceneTable& table : root_.tables("bat")) read_bat(table);
+    for (SceneTable& table : root_.tables("puck")) read_puck(table);
+    for (SceneTable& table : root_.tables("population")) read_population(table);
+    std::vector<SceneTable> keys = root_.tables("key");
+    root_.finish();
+    populate_by_line();
+    for (SceneTable& table : keys) read_key(table);
+    std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+    return std::move(scene_);
+  }
+
+ private:
+  void read_materials() {
+    std::optional<SceneTable> table = root_.table("materials");
+    if (!table) return;
+    double everywhere = 1.0;
+    table->texts("names", scene_.materials);
+    if (scene_.materials.size() > 256) table->refuse("names", "at most 256 names");
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      if (std::count(scene_.materials.begin(), scene_.materials.end(), scene_.materials[i]) > 1) table->refuse("names", "each name once");
+    table->number("restitution", everywhere, part_of_one);
+    scene_.world.restitution = physics::RestitutionTable(scene_.materials.size(), everywhere);
+    for (SceneTable& pair : table->tables("pair")) read_pair(pair);
+    table->finish();
+  }
+
+  void read_pair(SceneTable& pair) {
+    std::vector<std::string> between;
+    double restitution = 1.0;
+    if (!pair.texts("between", between)) pair.refuse_all("lacks the key between: expected two materials");
+    if (between.size() != 2) pair.refuse("between", "two materials");
+    pair.require_number("restitution", restitution, part_of_one);
+    scene_.world.restitution.set(material_named(pair, "between", between[0]), material_named(pair, "between", between[1]), restitution);
+    pair.finish();
+  }
+
+  MaterialId material_named(const SceneTable& table, const char* key, const std::string& name) const {
+    const auto place = std::find(scene_.materials.begin(), scene_.materials.end(), name);
+    std::string known;
+    for (const std::string& material : scene_.materials) known += (known.empty() ? "" : ", ") + material;
+    if (place == scene_.materials.end()) table.refuse(key, "materials out of " + known);
+    return static_cast<MaterialId>(place - scene_.materials.begin());
+  }
+
+  void read_material(SceneTable& table, const char* key, MaterialId& material) const {
+    std::string name;
+    if (table.text(key, name)) material = material_named(table, key, name);
+  }
+
+  void read_field() {
+    std::optional<SceneTable> table = root_.table("field");
+    if (!table) throw SceneError(file_ + ":1: the scene lacks the table [field] with its length and width");
+    physics::Field& field = scene_.world.field;
+    table->require_number("length", field.length, above_zero);
+    table->require_number("width", field.width, above_zero);
+    table->number("goal_width", field.goal_width, {0.0, field.width});
+    table->truth("bats_keep_to_half", field.bats_keep_to_half);
+    read_material(*table, "material", field.wall);
+    table->finish();
+  }
+
+  void read_drag() {
+    std::optional<SceneTable> table = root_.table("drag");
+    if (!table) return;
+    table->number("pucks", scene_.world.puck_drag, from_zero);
+    table->number("bats", scene_.world.bat_drag, from_zero);
+    table->finish();
+  }
+
+  void read_match() {
+    std::optional<SceneTable> table = root_.table("match");
+    if (!table) return;
+    std::uint64_t goals = 0;
+    if (table->whole("goals_to_win", goals, 1, 1'000'000)) scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
+    table->number("face_off_delay", scene_.rules.face_off_delay, above_zero);
+    table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, 1.0, true});
+    table->finish();
+  }
+
+  /// Every body has a name of its own, for errors and scripted keys.
+  std::string read_name(SceneTable& table, const char* kind, std::size_t number) {
+    std::string name = std::string(kind) + "-" + std::to_string(number);
+    table.text("name", name);
+    if (!lines_.emplace(name, table.line()).second) table.refuse_all("the name " + name + " is taken: expected each name once");
+    return name;
+  }
+
+  void read_post(SceneTable& table) {
+    Post post{read_name(table, "post", scene_.placed.posts.size()), {}};
+    table.require_vector("position", post.body.position);
+    table.require_number("radius", post.body.radius, from_zero);
+    read_material(table, "material", post.body.material);
+    table.finish();
+    scene_.placed.posts.push_back(post);
+  }
+
+  void read_bat(SceneTable& table) {
+    Bat bat;
+    bat.name = read_name(table, "bat", scene_.placed.bats.size());
+    table.require_vector("position", bat.body.position);
+    table.vector("velocity", bat.body.velocity);
+    table.require_vector("half_extent", bat.body.half_extent, above_zero);
+    table.number("mass", bat.body.mass, above_zero);
+    table.number("thrust", bat.thrust, from_zero);
+    read_material(table, "material", bat.body.material);
+    bat.team = bat.body.position.x() < scene_.world.field.length / 2 ? Team::left : Team::right;
+    table.choice<Team>("team", bat.team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}});
+    if (scene_.world.field.bats_keep_to_half && bat.team != Team::none) bat.body.half = bat.team == Team::left ? physics::Half::left : physics::Half::right;
+    table.finish();
+    scene_.placed.bats.push_back(bat);
+  }
+
+  void read_puck(SceneTable& table) {
+    Puck puck{read_name(table, "puck", scene_.placed.pucks.size()), {}};
+    table.require_vector("position", puck.body.position);
+    table.vector("velocity", puck.body.velocity);
+    table.number("radius", puck.body.radius, above_zero);
+    table.number("mass", puck.body.mass, above_zero);
+    read_material(table, "material", puck.body.material);
+    table.finish();
+    scene_.placed.pucks.push_back(puck);
+  }
+
+  void read_population(SceneTable& table) {
+    Population population;
+    std::string kind;
+    table.require_text("kind", kind);
+    table.choice<BodyKind>("kind", population.kind, {{"puck", BodyKind::puck}, {"bat", BodyKind::bat}, {"post", BodyKind::post}});
+    population.name = read_name(table, (kind + "s").c_str(), scene_.populations.size());
+    read_count(table, population);
+    if (population.kind != BodyKind::bat) table.span("radius", population.radius_min, population.radius_max, population.kind == BodyKind::puck ? above_zero : from_zero);
+    if (population.kind != BodyKind::post) table.number("mass", population.mass, above_zero);
+    if (population.kind == BodyKind::puck) read_speeds(table, population);
+    if (population.kind == BodyKind::bat) read_bats(table, population);
+    read_material(table, "material", population.material);
+    table.finish();
+    scene_.populations.push_back(population);
+  }
+
+  void read_count(SceneTable& table, Population& population) {
+    std::uint64_t count = 0;
+    double density = 0.0;
+    const bool has_count = table.whole("count", count, 0, body_max), has_density = table.number("density", density, from_zero);
+    if (has_count == has_density) table.refuse_all("expected either count or density (bodies per square metre)");
+    const double by_density = std::round(density * scene_.world.field.length * scene_.world.field.width);
+    if (by_density > static_cast<double>(body_max)) table.refuse("density", "at most " + std::to_string(body_max) + " bodies in all");
+    population.count = has_count ? static_cast<std::uint32_t>(count) : static_cast<std::uint32_t>(by_density);
+  }
+
+  void read_speeds(SceneTable& table, Population& population) {
+    table.number("mean_speed", population.mean_speed, from_zero);
+    table.choice<SpeedDistribution>("speeds", population.speeds,
+                                    {{"fixed", SpeedDistribution::fixed}, {"uniform", SpeedDistribution::uniform}, {"maxwell", SpeedDistribution::maxwell}});
+  }
+
+  void read_bats(SceneTable& table, Population& population) {
+    table.vector("half_extent", population.half_extent, above_zero);
+    table.number("thrust", population.thrust, from_zero);
+    Team team = Team::none;
+    if (table.choice<Team>("team", team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}})) population.team = team;
+  }
+
+  void populate_by_line() {
+    try {
+      populate(scene_);
+    } catch (const PlacementError& error) {
+      throw SceneError(file_ + ":" + std::to_string(lines_.at(error.body)) + ": " + error.what());
+    }
+  }
+
+  void read_key(SceneTable& table) {
+    InputEvent event;
+    std::string bat;
+    table.require_number("time", event.time, from_zero);
+    table.require_text("bat", bat);
+    const std::vector<Bat>& bats = scene_.bodies.bats;
+    const auto place = std::find_if(bats.begin(), bats.end(), [&](const Bat& candidate) { return candidate.name == bat; });
+    if (place == bats.end()) table.refuse("bat", "the name of a bat");
+    event.player = static_cast<std::uint32_t>(place - bats.begin());
+    std::string key;
+    bool is_down = true;
+    table.require_text("key", key);
+    table.choice<Key>("key", event.key, {{"left", Key::left}, {"right", Key::right}, {"up", Key::up}, {"down", Key::down}});
+    if (!table.truth("is_down", is_down)) table.refuse_all("lacks the key is_down: expected true or false");
+    event.kind = is_down ? InputKind::key_down : InputKind::key_up;
+    table.finish();
+    scene_.keys.push_back(event);
+  }
+
+  const std::string file_;
+  SceneTable root_;
+  Scene scene_;
+  std::map<std::string, std::size_t> lines_;  ///< where each body or population stands
+};
+
+std::filesystem::path preset_folder() {
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return self.parent_path().parent_path() / "share" / "rink" / "scenes";
+}
+
+std::filesystem::path file_of(const std::string& scene) {
+  if (scene.ends_with(".toml") || scene.find('/') != std::string::npos) return scene;
+  const std::filesystem::path preset = preset_folder() / (scene + ".toml");
+  if (std::filesystem::is_regular_file(preset)) return preset;
+  std::string known;
+  for (const std::string& name : preset_names()) known += (known.empty() ? "" : ", ") + name;
+  throw SceneError(scene + ": no such scene: expected a file NAME.toml or one of the presets " + (known.empty() ? "(none found in " + preset_folder().string() + ")" : known));
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw SceneError(file.string() + ":" + std::to_string(error.source().begin.line) + ": not TOML: " + std::string(error.description()));
+  }
+  Scene scene = SceneReader(root, file.string()).read();
+  if (scene.name.empty()) scene.name = file.stem().string();
+  return scene;
+}
+
+Scene load_scene(const std::string& scene) {
+  const std::filesystem::path file = file_of(scene);
+  std::ifstream stream(file);
+  std::ostringstream text;
+  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) throw SceneError(file.string() + ": cannot be read: expected a scene file (TOML)");
+  return parse_scene(text.str(), file);
+}
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(preset_folder(), error))
+    if (entry.is_regular_file() && entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace rink::game
