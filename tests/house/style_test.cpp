@@ -74,7 +74,7 @@ TEST(Style, LinesFitTheScreen) {
 }
 
 TEST(Style, NamesComeFromTheDomain) {
-  const std::regex bag("(^|/)(" + joined("ut", "il") + "s?|" + joined("com", "mon") + "|" + joined("hel", "per") + "s?|misc)(\\.|/)");
+  const std::regex bag("(^|[/_])(" + joined("ut", "il") + "s?|" + joined("com", "mon") + "|" + joined("hel", "per") + "s?|misc)(\\.|/)");
   const std::regex type("\\b(class|struct|enum class)\\s+\\w*(" + joined("Man", "ager") + "|" + joined("Hel", "per") + "|" + joined("Ut", "il") + ")\\b");
   const auto sources = all_code();
   for (const SourceFile& source : sources)

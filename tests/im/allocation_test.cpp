@@ -1,0 +1,48 @@
+// Proves that a filter in its steady state allocates nothing, by counting every allocation of this executable.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "im/filter.h"
+
+namespace {
+
+std::size_t allocation_count = 0;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocation_count;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace rink::im {
+namespace {
+
+/// Everything circles with a period of 16 ticks, so that one round shows all there is to store.
+void tick(Filter& filter, int time) {
+  const auto place = [time](std::uint32_t id, double half) {
+    const double x = (id * 37u) % 101u + (time % 16) * 0.5, y = (id * 53u) % 97u;
+    return Region{x - half, y - half, x + half, y + half};
+  };
+  for (Entity entity = 0; entity < 500; ++entity) filter.set_update_region(entity, place(entity, 0.1));
+  for (Subscriber subscriber = 0; subscriber < 50; ++subscriber) filter.set_subscription_region(subscriber, place(subscriber, 10.0));
+  filter.match();
+}
+
+TEST(Filter, AllocatesNothingInTheSteadyState) {
+  for (const std::string& name : filter_names()) {
+    const auto filter = make_filter(name, {.world = {0.0, 0.0, 110.0, 100.0}});
+    for (int time = 0; time < 32; ++time) tick(*filter, time);
+    const std::size_t before = allocation_count;
+    for (int time = 32; time < 64; ++time) tick(*filter, time);
+    EXPECT_EQ(allocation_count, before) << name;
+  }
+}
+
+}  // namespace
+}  // namespace rink::im
