@@ -1,0 +1,105 @@
+// The command rink-compare from its arguments to its exit status and files, with shell scripts in place of the server and the bots.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "canned_reports.h"
+#include "loadgen/process.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::HasSubstr;
+
+class CompareCommandTest : public testing::Test {
+ protected:
+  CompareCommandTest() {
+    std::string pattern = testing::TempDir() + "rink-compare-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    const Cell cell{"client-server", "@scheme", "periodic", 2, 1};
+    const std::string take = "while [ $# -gt 0 ]; do case $1 in --report) report=$2;; --scheme) scheme=$2;; esac; shift; done\n";
+    script("rink-serve", take + "echo listening on 127.0.0.1:4711\n[ -e " + (folder_ / "fail-").string() +
+                             "$scheme ] && { echo broken >&2; exit 9; }\n[ -e " + (folder_ / "hang-").string() +
+                             "$scheme ] && sleep 60\ncat >\"$report\" <<R\n" + canned_server_report(cell).dump() + "\nR\n");
+    script("rink-bots", take + "cat >\"$report\" <<'R'\n" + canned_bots_report(cell).dump() + "\nR\n");
+    write("small.toml", "name = 'small'\nscene = 'match'\nclients = 2\nschemes = ['none', 'grid']\nduration_s = 0.1\nwarm_up_s = 0\n");
+  }
+  ~CompareCommandTest() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& content) { std::ofstream(folder_ / name) << content; }
+  void script(const std::string& name, const std::string& body) {
+    write(name, "#!/bin/sh\n" + body);
+    std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_all);
+  }
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  std::vector<std::string> arguments(const std::string& experiment) const {
+    return {(folder_ / experiment).string(), "--out", (folder_ / "out").string(), "--programs", folder_.string()};
+  }
+  /// Runs the command to its end; `errors_` is what it said.
+  int exit_status_of(const std::vector<std::string>& arguments) {
+    Process compare(std::string(RINK_BINARY_DIR) + "/bin/rink-compare", arguments, {});
+    while (!compare.ending()) compare.attend(std::chrono::milliseconds(20));
+    errors_ = compare.last_words();
+    return compare.ending()->exit_status;
+  }
+
+  std::filesystem::path folder_;
+  std::string errors_;
+};
+
+TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
+  EXPECT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
+  const std::string runs = content("out/runs.jsonl");
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 2);
+  EXPECT_THAT(content("out/summary.csv"), HasSubstr("client-server,grid,periodic,2,1,0"));
+  EXPECT_THAT(content("out/report.html"), HasSubstr("</html>"));
+  EXPECT_THAT(content("out/provenance.json"), HasSubstr("kernel"));
+  EXPECT_THAT(content("out/keys/seed1.keys"), HasSubstr("rink-keys 1"));
+  EXPECT_EQ(exit_status_of(arguments("small.toml")), 5);
+  EXPECT_THAT(errors_, HasSubstr("--force"));
+}
+
+TEST_F(CompareCommandTest, SomeOrAllRunsThatDoNotCountHaveStatusesOfTheirOwn) {
+  write("fail-grid", "");
+  EXPECT_EQ(exit_status_of(arguments("small.toml")), 3);
+  EXPECT_THAT(content("out/report.html"), HasSubstr("saying: broken"));
+  write("fail-none", "");
+  auto again = arguments("small.toml");
+  again.push_back("--force");
+  EXPECT_EQ(exit_status_of(again), 4);
+}
+
+TEST_F(CompareCommandTest, BadInputEndsBeforeAnythingRuns) {
+  EXPECT_EQ(exit_status_of(arguments("nowhere.toml")), 2);
+  EXPECT_THAT(errors_, HasSubstr("nowhere.toml: no such file"));
+  write("bad.toml", "name = 'bad'\nscene = 'match'\nclients = 0\n");
+  EXPECT_EQ(exit_status_of(arguments("bad.toml")), 2);
+  EXPECT_THAT(errors_, HasSubstr("bad.toml:3: clients = 0"));
+  write("crowded.toml", "name = 'crowded'\nscene = 'match'\nclients = [1, 3]\n");
+  EXPECT_EQ(exit_status_of(arguments("crowded.toml")), 2);
+  EXPECT_THAT(errors_, HasSubstr("has 2 bats"));
+  EXPECT_EQ(exit_status_of({"--bogus"}), 2);
+}
+
+TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
+  write("hang-grid", "");
+  Process compare(std::string(RINK_BINARY_DIR) + "/bin/rink-compare", arguments("small.toml"), {});
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (content("out/runs.jsonl").empty() && std::chrono::steady_clock::now() < limit) compare.attend(std::chrono::milliseconds(20));
+  compare.stop(std::chrono::seconds(20));
+  EXPECT_EQ(compare.ending()->exit_status, 130) << compare.ending()->text();
+  EXPECT_THAT(content("out/report.html"), HasSubstr("1 of 2 cells run, 1 valid"));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
