@@ -148,6 +148,7 @@ class Engine {
   double real_time(double start, double warped) const;
 
   // engine_impact.cpp
+  Vector2 position_at(std::uint32_t body, double time) const;
   Contact contact(std::uint32_t body, Partner partner, double time) const;
   Vector2 velocity_of(Partner p) const;
   Vector2 acceleration_of(Partner p) const;

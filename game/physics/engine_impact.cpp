@@ -14,9 +14,14 @@ constexpr double separation_min = 1e-14;
 
 }  // namespace
 
+Vector2 Engine::position_at(std::uint32_t body, double time) const {
+  const Body& b = bodies_[body];
+  return b.time >= time || b.kind == BodyKind::post ? Vector2(b.x, b.y) : at(body, time).position;
+}
+
 Engine::Contact Engine::contact(std::uint32_t body, Partner p, double time) const {
-  const Vector2 position = at(body, time).position;
-  if (is_body(p)) return {body, p, shape_of(body, p).gap(position - at(p, std::max(time, bodies_[p].time)).position)};
+  const Vector2 position = position_at(body, time);
+  if (is_body(p)) return {body, p, shape_of(body, p).gap(position - position_at(p, time))};
   if (p >= partner::edge_left_low && p <= partner::edge_right_high) return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
   return {body, p, plane_of(body, p).gap(position)};
 }

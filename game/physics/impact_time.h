@@ -12,14 +12,17 @@ namespace rink::physics {
 inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Time [s] until two discs first touch, or nothing if they never do. `offset` [m] and `velocity` [m/s] are those of B seen from A, `reach` [m] is
-/// the sum of the radii. Discs in contact and closing give 0.
-inline std::optional<double> time_to_touch(const Vector2& offset, const Vector2& velocity, double reach) {
+/// the sum of the radii. Discs in contact and closing give 0. May also give nothing if the time would exceed `limit` [s].
+inline std::optional<double> time_to_touch(const Vector2& offset, const Vector2& velocity, double reach, double limit = std::numeric_limits<double>::infinity()) {
   const double closing = -offset.dot(velocity);
   if (closing <= 0.0) return std::nullopt;
   const double gap = offset.squaredNorm() - reach * reach;
   if (gap <= 0.0) return 0.0;
+  if (gap > 2.001 * closing * limit) return std::nullopt;  // two square roots saved in most cases: sqrt(D) <= closing
   // closing^2 - |velocity|^2 gap is the same number but cancels: 40 to 300 times larger median error on long and grazing flights (docs/physics.md, "Discs").
-  const double miss = cross(offset, velocity), speed_reach = std::sqrt(velocity.squaredNorm()) * reach;
+  const double miss = cross(offset, velocity), square = velocity.squaredNorm();
+  if (miss * miss > 1.001 * square * reach * reach) return std::nullopt;
+  const double speed_reach = std::sqrt(square) * reach;
   const double discriminant = (speed_reach - miss) * (speed_reach + miss);
   if (discriminant < 0.0) return std::nullopt;
   return gap / (closing + std::sqrt(discriminant));
