@@ -51,10 +51,10 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
   const Vector2& normal = c.gap.normal;
-  const double approach = normal.dot(velocity_of(p) - velocity_of(body)), pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
-  if (approach < rest_speed && pressing > press_min && can_rest(c)) return rest(c, time);
-  const double given_back = restitution(body, p);
+  const double approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
   if (approach < rest_speed || given_back < 1.0) {
+    const double pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
+    if (approach < rest_speed && pressing > press_min && can_rest(c)) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
     if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
