@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <memory>
+#include <map>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "rti/transport/transport.h"
@@ -17,12 +15,13 @@ class InProcessEndpoint;
 /// The air between endpoints; must outlive them. Bytes sent are there at the receiver's next poll. One thread for all.
 class InProcessNetwork {
  public:
+  /// `queue_max` [bytes]: what a receiver may leave unread per connection before it is closed.
   explicit InProcessNetwork(std::size_t queue_max = 64u << 20) : queue_max_(queue_max) {}
 
  private:
   friend class InProcessEndpoint;
-  std::unordered_map<std::string, InProcessEndpoint*> listeners_;
-  std::size_t queue_max_;  ///< bytes that a receiver may leave unread per connection
+  std::map<std::string, InProcessEndpoint*> listeners_;
+  std::size_t queue_max_;
 };
 
 /// One federate's or the RTI's end. `poll` never waits: what can happen has happened.
@@ -33,7 +32,7 @@ class InProcessEndpoint final : public Transport {
   InProcessEndpoint(const InProcessEndpoint&) = delete;
   InProcessEndpoint& operator=(const InProcessEndpoint&) = delete;
 
-  /// Others may connect to `name` from now on. Throws TransportError if the name is taken.
+  /// Others may connect to `name` from now on. Throws TransportError in_use if the name is taken.
   void listen(const std::string& name);
   /// `on_open` follows in the next poll, or `on_close` with `refused` if nobody listens.
   ConnectionId connect(const std::string& name);
@@ -49,7 +48,7 @@ class InProcessEndpoint final : public Transport {
     EventKind kind;
     ConnectionId connection;
     CloseReason reason = CloseReason::closed_by_peer;
-    std::size_t size = 0;  ///< of `bytes`, in the order of `incoming`
+    std::string detail;
   };
   struct Line {
     InProcessEndpoint* peer = nullptr;  ///< null once closed
@@ -57,11 +56,13 @@ class InProcessEndpoint final : public Transport {
     std::vector<std::byte> incoming;    ///< sent by the peer, not yet polled
     TransportCounters counters;
   };
-  void shut(ConnectionId connection, CloseReason reason, CloseReason peer_reason);
+  ConnectionId add_line(InProcessEndpoint* peer);
+  void report(const Event& event, TransportListener& listener);
+  void part(ConnectionId connection, CloseReason ours, CloseReason theirs, const std::string& detail);
 
   InProcessNetwork& network_;
   std::string name_;
-  std::vector<Line> lines_;    ///< by connection
+  std::vector<Line> lines_;  ///< by connection
   std::vector<Event> events_, reporting_;
   std::vector<std::byte> delivering_;
 };

@@ -1,0 +1,63 @@
+// Federates on a transport.
+#include "rti/transport/federate_link.h"
+
+#include <string>
+
+namespace rink::rti {
+
+void FederateLink::received(Bytes bytes) {
+  if (!ambassador_.receive(bytes)) transport_.close(connection_);
+}
+
+void FederateLink::closed(CloseReason reason, const std::string& detail) {
+  is_open_ = false;
+  is_finished_ = true;
+  close_reason_ = reason;
+  ambassador_.disconnected(detail.empty() ? to_string(reason) : detail);
+}
+
+void FederateLink::flush(double now) {
+  if (is_finished_) return;
+  ambassador_.advance_clock(now);
+  if (!is_open_) return;
+  const Bytes waiting = ambassador_.outgoing();
+  if (waiting.empty()) return;
+  transport_.send(connection_, std::span(&waiting, 1));
+  ambassador_.clear_outgoing();
+}
+
+void FederateLink::close() {
+  if (is_finished_) return;
+  const Bytes waiting = ambassador_.outgoing();
+  if (is_open_ && !waiting.empty()) transport_.send(connection_, std::span(&waiting, 1));
+  ambassador_.clear_outgoing();
+  transport_.close(connection_);
+}
+
+void FederateLinks::add(FederateLink& link) {
+  if (link.connection() >= links_.size()) links_.resize(link.connection() + 1, nullptr);
+  links_[link.connection()] = &link;
+}
+
+void FederateLinks::remove(const FederateLink& link) {
+  if (find(link.connection()) == &link) links_[link.connection()] = nullptr;
+}
+
+void FederateLinks::on_open(ConnectionId connection) {
+  if (FederateLink* link = find(connection)) link->opened();
+}
+
+void FederateLinks::on_bytes(ConnectionId connection, Bytes bytes) {
+  if (FederateLink* link = find(connection)) link->received(bytes);
+}
+
+void FederateLinks::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
+  if (FederateLink* link = find(connection)) link->closed(reason, detail);
+}
+
+void FederateLinks::flush(double now) {
+  for (FederateLink* link : links_)
+    if (link != nullptr) link->flush(now);
+}
+
+}  // namespace rink::rti

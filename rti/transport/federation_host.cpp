@@ -1,0 +1,97 @@
+// Transports on one side, a federation execution on the other.
+#include "rti/transport/federation_host.h"
+
+namespace rink::rti {
+
+namespace {
+constexpr ConnectionId nobody = 0xffffffffu;
+}
+
+/// One transport, its connections numbered by the execution.
+class FederationHost::Port final : public TransportListener {
+ public:
+  Port(FederationHost& host, Transport& transport) : host_(host), transport_(transport) {}
+  Transport& transport() { return transport_; }
+  bool has_heard() const { return has_heard_; }
+  void poll(std::chrono::nanoseconds longest_wait) {
+    has_heard_ = false;
+    transport_.poll(longest_wait, *this);
+  }
+
+  void on_open(ConnectionId connection) override {
+    has_heard_ = true;
+    if (connection >= numbers_.size()) numbers_.resize(connection + 1, nobody);
+    numbers_[connection] = host_.admit(*this, connection);
+  }
+  void on_bytes(ConnectionId connection, Bytes bytes) override {
+    has_heard_ = true;
+    host_.execution_.receive(numbers_[connection], bytes);
+  }
+  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
+    has_heard_ = true;
+    if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
+    host_.execution_.disconnect(numbers_[connection], detail.empty() ? to_string(reason) : detail);
+    if (reason == CloseReason::queue_full) ++host_.closed_by_full_queue_;
+    --host_.connection_count_;
+    host_.routes_[numbers_[connection]] = {};
+    host_.free_routes_.push_back(numbers_[connection]);
+    numbers_[connection] = nobody;
+  }
+
+ private:
+  FederationHost& host_;
+  Transport& transport_;
+  std::vector<ConnectionId> numbers_;  ///< the execution's, by the transport's
+  bool has_heard_ = false;
+};
+
+class FederationHost::HostOutlet final : public Outlet {
+ public:
+  explicit HostOutlet(FederationHost& host) : host_(host) {}
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    const Route& route = host_.routes_[connection];
+    if (route.port != nullptr) route.port->transport().send(route.connection, parts);
+  }
+  void drop(ConnectionId connection, std::string_view) override {
+    const Route& route = host_.routes_[connection];
+    if (route.port != nullptr) route.port->transport().close(route.connection);
+  }
+
+ private:
+  FederationHost& host_;
+};
+
+FederationHost::FederationHost(FederationExecution& execution) : execution_(execution) {}
+FederationHost::~FederationHost() = default;
+
+void FederationHost::add(Transport& transport) { ports_.push_back(std::make_unique<Port>(*this, transport)); }
+
+ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
+  ConnectionId number = static_cast<ConnectionId>(routes_.size());
+  if (free_routes_.empty()) {
+    routes_.emplace_back();
+  } else {
+    number = free_routes_.back();
+    free_routes_.pop_back();
+  }
+  routes_[number] = {&port, connection};
+  ++connection_count_;
+  execution_.connect(number);
+  return number;
+}
+
+void FederationHost::poll(std::chrono::nanoseconds longest_wait) {
+  bool has_heard = false;
+  for (const auto& port : ports_) {
+    const bool may_wait = &port == &ports_.back() && !has_heard;
+    port->poll(may_wait ? longest_wait : std::chrono::nanoseconds(0));
+    has_heard |= port->has_heard();
+  }
+}
+
+void FederationHost::flush() {
+  HostOutlet outlet(*this);
+  execution_.flush(outlet);
+}
+
+}  // namespace rink::rti

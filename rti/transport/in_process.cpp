@@ -1,0 +1,90 @@
+// Lines between endpoints of one process.
+#include "rti/transport/in_process.h"
+
+namespace rink::rti {
+
+InProcessEndpoint::~InProcessEndpoint() {
+  for (ConnectionId id = 0; id < lines_.size(); ++id) close(id);
+  if (!name_.empty()) network_.listeners_.erase(name_);
+}
+
+void InProcessEndpoint::listen(const std::string& name) {
+  if (!network_.listeners_.emplace(name, this).second)
+    throw TransportError(TransportError::Kind::in_use, "in-process address '" + name + "' is in use");
+  name_ = name;
+}
+
+ConnectionId InProcessEndpoint::add_line(InProcessEndpoint* peer) {
+  lines_.emplace_back().peer = peer;
+  return static_cast<ConnectionId>(lines_.size() - 1);
+}
+
+ConnectionId InProcessEndpoint::connect(const std::string& name) {
+  const auto found = network_.listeners_.find(name);
+  if (found == network_.listeners_.end()) {
+    const ConnectionId refused = add_line(nullptr);
+    events_.push_back({EventKind::close, refused, CloseReason::refused, "nobody listens at in-process address '" + name + "'"});
+    return refused;
+  }
+  InProcessEndpoint& peer = *found->second;
+  const ConnectionId ours = add_line(&peer), theirs = peer.add_line(this);
+  lines_[ours].peer_connection = theirs;
+  peer.lines_[theirs].peer_connection = ours;
+  peer.events_.push_back({EventKind::open, theirs, {}, {}});
+  events_.push_back({EventKind::open, ours, {}, {}});
+  return ours;
+}
+
+void InProcessEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
+  reporting_.swap(events_);
+  for (const Event& event : reporting_) report(event, listener);
+  reporting_.clear();
+}
+
+void InProcessEndpoint::report(const Event& event, TransportListener& listener) {
+  if (event.kind == EventKind::open) return listener.on_open(event.connection);
+  if (event.kind == EventKind::close) return listener.on_close(event.connection, event.reason, event.detail);
+  delivering_.swap(lines_[event.connection].incoming);
+  lines_[event.connection].counters.bytes_received += delivering_.size();
+  if (!delivering_.empty()) listener.on_bytes(event.connection, delivering_);
+  delivering_.clear();
+}
+
+void InProcessEndpoint::send(ConnectionId connection, std::span<const Bytes> parts) {
+  if (connection >= lines_.size() || lines_[connection].peer == nullptr) return;
+  Line& line = lines_[connection];
+  Line& there = line.peer->lines_[line.peer_connection];
+  const bool was_empty = there.incoming.empty();
+  std::size_t size = 0;
+  for (const Bytes part : parts) size += part.size();
+  if (size == 0) return;
+  if (there.incoming.size() + size > network_.queue_max_) return part(connection, CloseReason::queue_full, CloseReason::closed_by_peer, "the peer did not read");
+  for (const Bytes part : parts) there.incoming.insert(there.incoming.end(), part.begin(), part.end());
+  if (was_empty) line.peer->events_.push_back({EventKind::bytes, line.peer_connection, {}, {}});
+  line.counters.bytes_sent += size;
+  line.counters.segments_sent += (size + 1447) / 1448;
+  ++line.counters.writes;
+}
+
+void InProcessEndpoint::close(ConnectionId connection) {
+  if (connection < lines_.size() && lines_[connection].peer != nullptr) part(connection, CloseReason::closed_by_us, CloseReason::closed_by_peer, "");
+}
+
+void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseReason theirs, const std::string& detail) {
+  Line& line = lines_[connection];
+  Line& there = line.peer->lines_[line.peer_connection];
+  line.peer->events_.push_back({EventKind::close, line.peer_connection, theirs, detail});
+  events_.push_back({EventKind::close, connection, ours, detail});
+  there.peer = line.peer = nullptr;
+  line.incoming.clear();  // what the peer said before is of no interest to one who closes
+}
+
+TransportCounters InProcessEndpoint::counters(ConnectionId connection) const {
+  if (connection >= lines_.size()) return {};
+  TransportCounters counters = lines_[connection].counters;
+  const Line& line = lines_[connection];
+  if (line.peer != nullptr) counters.queued_bytes = line.peer->lines_[line.peer_connection].incoming.size();
+  return counters;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,21 @@
+// Asks Linux by TCP_INFO.
+#include "rti/transport/kernel_counters.h"
+
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cstddef>
+
+namespace rink::rti {
+
+std::optional<KernelCounters> kernel_counters(int socket) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  if (getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return std::nullopt;
+  if (size < offsetof(tcp_info, tcpi_bytes_received) + sizeof info.tcpi_bytes_received) return std::nullopt;
+  // The kernel counts the SYN or FIN that was acknowledged as a byte; `bytes_acked` starts at 1 on the side that connects or accepts.
+  return KernelCounters{info.tcpi_bytes_acked, info.tcpi_bytes_received};
+}
+
+}  // namespace rink::rti

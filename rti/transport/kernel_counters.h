@@ -1,0 +1,17 @@
+// What the kernel has counted of a TCP connection; apart from Asio, whose headers clash with <linux/tcp.h>.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace rink::rti {
+
+struct KernelCounters {
+  std::uint64_t bytes_acknowledged = 0;  ///< payload that the peer's kernel has taken
+  std::uint64_t bytes_received = 0;      ///< payload that our kernel has taken
+};
+
+/// `TCP_INFO` of an open TCP socket; nothing if the kernel doesn't say.
+std::optional<KernelCounters> kernel_counters(int socket);
+
+}  // namespace rink::rti

@@ -1,0 +1,383 @@
+// TCP connections on Asio's reactor: non-blocking sockets, one gathered write per send, a bounded queue for slow readers.
+#include "rti/transport/tcp.h"
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+
+#include <algorithm>
+#include <array>
+#include <asio.hpp>
+#include <cerrno>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "rti/transport/kernel_counters.h"
+
+namespace rink::rti {
+
+namespace {
+
+using asio::ip::tcp;
+
+constexpr std::size_t segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
+constexpr std::size_t part_max = 256;       ///< of one write; more are taken in turns
+
+[[noreturn]] void fail(const asio::error_code& error, const std::string& what) {
+  using Kind = TransportError::Kind;
+  Kind kind = Kind::failed;
+  if (error == asio::error::address_in_use) kind = Kind::in_use;
+  else if (error == asio::error::access_denied) kind = Kind::no_permission;
+  else if (error == asio::error::no_descriptors) kind = Kind::too_many_files;
+  else if (error == asio::error::host_not_found || error == asio::error::no_data || error == asio::error::service_not_found ||
+           error == std::errc::address_not_available) kind = Kind::no_such_address;
+  throw TransportError(kind, what + ": " + error.message());
+}
+
+/// "address:port", with brackets around IPv6.
+std::string place(const std::string& address, std::uint16_t port) {
+  return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
+}
+
+CloseReason reason_of(const asio::error_code& error) {
+  if (error == asio::error::eof || error == asio::error::connection_reset || error == asio::error::broken_pipe) return CloseReason::closed_by_peer;
+  if (error == asio::error::connection_refused) return CloseReason::refused;
+  return CloseReason::failed;
+}
+
+}  // namespace
+
+class TcpTransport::Core {
+ public:
+  explicit Core(const TcpSettings& settings) : settings_(settings), timer_(context_), read_buffer_(settings.read_buffer) {}
+
+  std::uint16_t listen(const std::string& address, std::uint16_t port);
+  ConnectionId connect(const std::string& address, std::uint16_t port);
+  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
+  void send(ConnectionId connection, std::span<const Bytes> parts);
+  void close(ConnectionId connection);
+  TransportCounters counters(ConnectionId connection) const;
+
+ private:
+  struct Peer {
+    Peer(asio::io_context& context, ConnectionId id) : socket(context), id(id) {}
+    tcp::socket socket;
+    ConnectionId id;
+    std::string place;                  ///< whom we connect to
+    bool is_open = false;               ///< connected; may be sent to
+    bool is_leaving = false;            ///< its end is in `closed_`, waiting to be reported
+    bool is_writing = false;            ///< waits for room in the kernel's buffer
+    std::vector<std::byte> queue;       ///< from `queue_from` on: accepted, not yet taken
+    std::size_t queue_from = 0;
+    TransportCounters counters;
+  };
+  struct Closed {
+    ConnectionId connection;
+    CloseReason reason;
+    std::string detail;
+  };
+  tcp::endpoint resolve(const std::string& address, std::uint16_t port);
+  Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
+  Peer& add();
+  void accept(tcp::acceptor& acceptor);
+  void accept_later(tcp::acceptor& acceptor);
+  void opened(Peer& peer);
+  void await_bytes(Peer& peer);
+  void read(Peer& peer);
+  void await_room(Peer& peer);
+  void drain(Peer& peer);
+  std::size_t write(Peer& peer, std::span<const Bytes> parts, bool& is_broken);
+  void end(Peer& peer, CloseReason reason, const std::string& detail);
+  void report_closed();
+
+  TcpSettings settings_;
+  asio::io_context context_{1};
+  asio::steady_timer timer_;
+  bool is_timer_due_ = false;
+  std::vector<std::unique_ptr<tcp::acceptor>> acceptors_;
+  std::vector<std::unique_ptr<Peer>> peers_;      ///< by connection; null once closed
+  std::vector<TransportCounters> last_counters_;  ///< of closed ones, by connection
+  std::vector<Closed> closed_, reporting_;
+  std::vector<std::byte> read_buffer_;
+  TransportListener* listener_ = nullptr;         ///< while polling
+  std::uint64_t reported_ = 0;                    ///< events told to listeners so far
+};
+
+tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
+  asio::error_code error;
+  tcp::resolver resolver(context_);
+  const auto found = resolver.resolve(address, std::to_string(port), error);
+  if (error) fail(error, "no such address " + place(address, port));
+  return found.begin()->endpoint();
+}
+
+std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16_t port) {
+  const tcp::endpoint endpoint = resolve(address, port);
+  auto acceptor = std::make_unique<tcp::acceptor>(context_);
+  asio::error_code error;
+  acceptor->open(endpoint.protocol(), error);
+  if (!error) acceptor->set_option(tcp::acceptor::reuse_address(true), error);  // past connections in TIME_WAIT don't hold the port
+  if (!error) acceptor->bind(endpoint, error);
+  if (!error) acceptor->listen(4096, error);
+  if (error) fail(error, "can't listen at " + place(address, port));
+  acceptors_.push_back(std::move(acceptor));
+  accept(*acceptors_.back());
+  return acceptors_.back()->local_endpoint().port();
+}
+
+ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16_t port) {
+  const tcp::endpoint endpoint = resolve(address, port);
+  Peer& peer = add();
+  peer.place = place(address, port);
+  asio::error_code error;
+  peer.socket.open(endpoint.protocol(), error);
+  if (error) {
+    peers_.back().reset();
+    fail(error, "can't connect to " + place(address, port));
+  }
+  peer.socket.async_connect(endpoint, [this, id = peer.id](const asio::error_code& failure) {
+    Peer* connected = find(id);
+    if (connected == nullptr || connected->is_leaving) return;
+    if (failure) return end(*connected, reason_of(failure), "can't connect to " + connected->place + ": " + failure.message());
+    opened(*connected);
+  });
+  return peer.id;
+}
+
+TcpTransport::Core::Peer& TcpTransport::Core::add() {
+  peers_.push_back(std::make_unique<Peer>(context_, static_cast<ConnectionId>(peers_.size())));
+  last_counters_.emplace_back();
+  return *peers_.back();
+}
+
+void TcpTransport::Core::accept(tcp::acceptor& acceptor) {
+  acceptor.async_accept([this, &acceptor](const asio::error_code& error, tcp::socket socket) {
+    if (!error) {
+      Peer& peer = add();
+      peer.socket = std::move(socket);
+      opened(peer);
+    } else if (error == asio::error::no_descriptors) {
+      return accept_later(acceptor);
+    }
+    if (error != asio::error::operation_aborted) accept(acceptor);
+  });
+}
+
+void TcpTransport::Core::accept_later(tcp::acceptor& acceptor) {
+  // The waiting connection would wake us at once and for ever: raise the limit, or let somebody leave first.
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  auto pause = std::make_shared<asio::steady_timer>(context_, std::chrono::milliseconds(100));
+  pause->async_wait([this, &acceptor, pause](const asio::error_code& error) {
+    if (!error) accept(acceptor);
+  });
+}
+
+void TcpTransport::Core::opened(Peer& peer) {
+  asio::error_code ignored;
+  peer.socket.set_option(tcp::no_delay(true), ignored);
+  peer.socket.native_non_blocking(true, ignored);
+  peer.is_open = true;
+  ++reported_;
+  const ConnectionId id = peer.id;
+  listener_->on_open(id);
+  if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
+}
+
+void TcpTransport::Core::await_bytes(Peer& peer) {
+  peer.socket.async_wait(tcp::socket::wait_read, [this, id = peer.id](const asio::error_code& error) {
+    Peer* ready = find(id);
+    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
+    if (error) return end(*ready, reason_of(error), error.message());
+    read(*ready);
+  });
+}
+
+void TcpTransport::Core::read(Peer& peer) {
+  const ConnectionId id = peer.id;
+  const ssize_t size = ::recv(peer.socket.native_handle(), read_buffer_.data(), read_buffer_.size(), 0);
+  if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
+  if (size < 0) {
+    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return await_bytes(peer);
+    const asio::error_code error(errno, asio::system_category());
+    return end(peer, reason_of(error), error.message());
+  }
+  peer.counters.bytes_received += static_cast<std::uint64_t>(size);
+  ++reported_;
+  listener_->on_bytes(id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
+  if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
+}
+
+std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
+  std::array<iovec, part_max> vectors;
+  std::size_t taken = 0;
+  while (!parts.empty()) {
+    std::size_t count = 0, size = 0;
+    for (; count < std::min(parts.size(), part_max); ++count) {
+      vectors[count] = {const_cast<std::byte*>(parts[count].data()), parts[count].size()};  // sendmsg only reads
+      size += parts[count].size();
+    }
+    parts = parts.subspan(count);
+    msghdr message{};
+    message.msg_iov = vectors.data();
+    message.msg_iovlen = count;
+    ssize_t sent = 0;
+    do sent = ::sendmsg(peer.socket.native_handle(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    while (sent < 0 && errno == EINTR);
+    if (sent < 0) {
+      is_broken = errno != EAGAIN && errno != EWOULDBLOCK;
+      break;
+    }
+    taken += static_cast<std::size_t>(sent);
+    if (static_cast<std::size_t>(sent) < size) break;
+  }
+  peer.counters.bytes_sent += taken;
+  return taken;
+}
+
+void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
+  Peer* peer = find(connection);
+  if (peer == nullptr || peer->is_leaving) return;
+  std::size_t size = 0;
+  for (const Bytes part : parts) size += part.size();
+  if (size == 0) return;
+  ++peer->counters.writes;
+  peer->counters.segments_sent += (size + segment_size - 1) / segment_size;
+  bool is_broken = false;
+  std::size_t taken = 0;
+  if (peer->is_open && peer->queue.size() == peer->queue_from) taken = write(*peer, parts, is_broken);
+  if (is_broken) return end(*peer, CloseReason::closed_by_peer, "closed by peer");
+  if (taken == size) return;
+  const std::size_t waiting = peer->queue.size() - peer->queue_from;
+  if (waiting + size - taken > settings_.queue_max)
+    return end(*peer, CloseReason::queue_full, "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
+  for (const Bytes part : parts) {
+    const std::size_t skipped = std::min(taken, part.size());
+    taken -= skipped;
+    peer->queue.insert(peer->queue.end(), part.begin() + static_cast<std::ptrdiff_t>(skipped), part.end());
+  }
+  if (peer->is_open) await_room(*peer);
+}
+
+void TcpTransport::Core::await_room(Peer& peer) {
+  if (peer.is_writing) return;
+  peer.is_writing = true;
+  peer.socket.async_wait(tcp::socket::wait_write, [this, id = peer.id](const asio::error_code& error) {
+    Peer* ready = find(id);
+    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
+    ready->is_writing = false;
+    drain(*ready);
+  });
+}
+
+void TcpTransport::Core::drain(Peer& peer) {
+  const Bytes waiting = Bytes(peer.queue).subspan(peer.queue_from);
+  bool is_broken = false;
+  peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
+  if (is_broken) return end(peer, CloseReason::closed_by_peer, "closed by peer");
+  if (peer.queue_from < peer.queue.size()) {
+    // What has gone is cut off now and then, so that a slow but steady reader doesn't make the queue's memory grow.
+    if (peer.queue_from > settings_.queue_max / 2) {
+      peer.queue.erase(peer.queue.begin(), peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
+      peer.queue_from = 0;
+    }
+    return await_room(peer);
+  }
+  peer.queue = {};
+  peer.queue_from = 0;
+}
+
+void TcpTransport::Core::close(ConnectionId connection) {
+  Peer* peer = find(connection);
+  if (peer == nullptr || peer->is_leaving) return;
+  if (peer->is_open && peer->queue_from < peer->queue.size()) {
+    bool is_broken = false;
+    const Bytes waiting = Bytes(peer->queue).subspan(peer->queue_from);
+    write(*peer, std::span(&waiting, 1), is_broken);
+  }
+  if (peer->is_open) {
+    // Unread input would turn our close into a reset, which may overtake the last bytes that we sent.
+    asio::error_code ignored;
+    peer->socket.shutdown(tcp::socket::shutdown_send, ignored);
+    while (::recv(peer->socket.native_handle(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT) > 0) {
+    }
+  }
+  end(*peer, CloseReason::closed_by_us, "closed by us");
+}
+
+void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& detail) {
+  peer.counters = counters(peer.id);
+  peer.counters.queued_bytes = 0;
+  peer.is_leaving = true;
+  asio::error_code ignored;
+  if (reason == CloseReason::queue_full) peer.socket.set_option(asio::socket_base::linger(true, 0), ignored);  // its unread bytes leave the kernel too
+  peer.socket.close(ignored);
+  peer.queue = {};
+  peer.queue_from = 0;
+  closed_.push_back({peer.id, reason, detail});
+}
+
+void TcpTransport::Core::report_closed() {
+  while (!closed_.empty()) {
+    reporting_.swap(closed_);
+    for (const Closed& each : reporting_) {
+      last_counters_[each.connection] = peers_[each.connection]->counters;
+      peers_[each.connection].reset();
+      ++reported_;
+      listener_->on_close(each.connection, each.reason, each.detail);
+    }
+    reporting_.clear();
+  }
+}
+
+void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  listener_ = &listener;
+  const std::uint64_t before = reported_;
+  context_.restart();
+  context_.poll();
+  report_closed();
+  if (reported_ == before && longest_wait.count() > 0) {
+    // The timer is the kernel's timerfd: exact to its slack, where run_one_for would round up to whole milliseconds.
+    is_timer_due_ = false;
+    timer_.expires_after(longest_wait);
+    timer_.async_wait([this](const asio::error_code& error) { is_timer_due_ = !error; });
+    while (reported_ == before && !is_timer_due_) {
+      context_.run_one();
+      report_closed();
+    }
+    timer_.cancel();
+    context_.poll();
+    report_closed();
+  }
+  listener_ = nullptr;
+}
+
+TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
+  const Peer* peer = find(connection);
+  if (peer == nullptr) return connection < last_counters_.size() ? last_counters_[connection] : TransportCounters{};
+  TransportCounters counters = peer->counters;
+  if (peer->is_leaving) return counters;
+  counters.queued_bytes = peer->queue.size() - peer->queue_from;
+  if (!peer->is_open) return counters;
+  // The socket is const here only because asking it changes nothing.
+  if (const auto kernel = kernel_counters(const_cast<tcp::socket&>(peer->socket).native_handle())) {
+    counters.kernel_bytes_sent = kernel->bytes_acknowledged;
+    counters.kernel_bytes_received = kernel->bytes_received;
+  }
+  return counters;
+}
+
+TcpTransport::TcpTransport(const TcpSettings& settings) : core_(std::make_unique<Core>(settings)) {}
+TcpTransport::~TcpTransport() = default;
+std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) { return core_->listen(address, port); }
+ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) { return core_->connect(address, port); }
+void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
+void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
+void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
+TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
+
+}  // namespace rink::rti
