@@ -31,7 +31,7 @@ constexpr std::size_t part_max = 256;       ///< of one write; more are taken in
   else if (error == asio::error::access_denied) kind = Kind::no_permission;
   else if (error == asio::error::no_descriptors) kind = Kind::too_many_files;
   else if (error == asio::error::host_not_found || error == asio::error::no_data || error == asio::error::service_not_found ||
-           error == std::errc::address_not_available) kind = Kind::no_such_address;
+           error.value() == EADDRNOTAVAIL) kind = Kind::no_such_address;
   throw TransportError(kind, what + ": " + error.message());
 }
 

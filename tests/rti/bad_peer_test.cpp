@@ -1,0 +1,366 @@
+// Refused joins, broken rules, garbage: the one who does it is dropped and counted, nobody else is harmed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "rti/message.h"
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+std::uint64_t drops(Rig& rig, Violation violation) { return rig.execution().counters().drops[static_cast<std::size_t>(violation)]; }
+
+class Refused : public ::testing::TestWithParam<Carrier> {};
+
+TEST_P(Refused, EachReasonHasItsOwnText) {
+  FederationSettings settings;
+  settings.federate_max = 2;
+  Rig rig(GetParam(), settings);
+  rig.join("first");
+  const auto refusal_of = [&](const Fom& fom, std::string_view federation, std::string_view name) {
+    Station& station = rig.connect(fom);
+    station.ambassador.join(federation, name, "tester");
+    rig.settle();
+    EXPECT_FALSE(station.ambassador.is_joined());
+    EXPECT_TRUE(station.link->is_finished()) << "the connection of one who is refused is closed";
+    EXPECT_EQ(station.heard.lost, "") << "a refusal is told once";
+    EXPECT_EQ(station.heard.log.size(), 1u);
+    return std::pair(station.heard.refusal, station.heard.log.empty() ? std::string() : station.heard.log.front());
+  };
+  std::string other_xml = harbour_xml;
+  other_xml.replace(other_xml.find("HLAfloat64LE"), 12, "HLAfloat32LE");
+  const Fom other = Fom::parse(other_xml, "other.xml");
+  std::set<std::string> texts;
+  const auto expect = [&](const auto& refused, Refusal reason) {
+    EXPECT_EQ(refused.first, reason);
+    EXPECT_TRUE(texts.insert(refused.second).second) << refused.second;
+  };
+  expect(refusal_of(other, "rink", "second"), Refusal::wrong_fom);
+  expect(refusal_of(harbour(), "rank", "second"), Refusal::wrong_federation);
+  expect(refusal_of(harbour(), "rink", "first"), Refusal::name_taken);
+  expect(refusal_of(harbour(), "rink", ""), Refusal::bad_name);
+  rig.join("second");
+  expect(refusal_of(harbour(), "rink", "third"), Refusal::federation_full);
+  EXPECT_EQ(drops(rig, Violation::refused), 5u);
+  EXPECT_EQ(rig.execution().federate_count(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return name_of(carrier.param); });
+
+/// Frames as a stranger would make them.
+template <class... Messages>
+std::vector<std::byte> frame_of(Messages... messages) {
+  FrameWriter frame(frame_max_to_rti);
+  const auto add = [&](auto& message) {
+    write(frame.begin_message(measure(message)), message);
+    frame.appended();
+  };
+  (add(messages), ...);
+  return {frame.bytes().begin(), frame.bytes().end()};
+}
+
+JoinMessage join_of(std::string_view name) {
+  JoinMessage message;
+  message.fom_hash = harbour().hash();
+  message.federation = "rink";
+  message.name = name;
+  message.type = "tester";
+  return message;
+}
+
+/// An execution without any transport, which keeps what it sends.
+struct Bare final : Outlet {
+  FederationExecution execution;
+  std::map<ConnectionId, std::vector<std::byte>> sent;
+  std::map<ConnectionId, std::string> dropped;
+  Recorder witness_heard;
+  Ambassador witness{harbour(), witness_heard};  ///< a good federate that must never be harmed, on connection 0
+
+  explicit Bare(const FederationSettings& settings = {}) : execution(harbour(), settings) {
+    execution.connect(0);
+    witness.join("rink", "witness", "tester");
+    tick();
+    witness.watch_federates();
+    witness.subscribe_object_class_attributes(vessel, AttributeSet{position, speed});
+    witness.publish_object_class_attributes(vessel, AttributeSet{position, speed});
+    tick();
+  }
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    for (const Bytes part : parts) {
+      if (connection == 0) EXPECT_TRUE(witness.receive(part));
+      else sent[connection].insert(sent[connection].end(), part.begin(), part.end());
+    }
+  }
+  void drop(ConnectionId connection, std::string_view why) override { dropped[connection] = why; }
+  void tick() {
+    execution.receive(0, witness.outgoing());
+    witness.clear_outgoing();
+    execution.match();
+    execution.flush(*this);
+  }
+  void enter(ConnectionId connection, std::string_view name) {
+    execution.connect(connection);
+    execution.receive(connection, frame_of(join_of(name)));
+    tick();
+  }
+  std::uint64_t drops(Violation violation) { return execution.counters().drops[static_cast<std::size_t>(violation)]; }
+};
+
+constexpr std::uint16_t vessel_number = 1;
+
+TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
+  Bare bare;
+  bare.execution.connect(1);
+  JoinMessage message = join_of("old");
+  message.version = protocol_version + 1;
+  auto frame = frame_of(message);
+  frame.push_back(std::byte{77});  // what that version has more
+  frame[0] = static_cast<std::byte>(frame.size() - frame_header_size);
+  bare.execution.receive(1, frame);
+  bare.tick();
+  Recorder heard;
+  Ambassador old(harbour(), heard);
+  old.join("rink", "old", "tester");
+  EXPECT_TRUE(old.receive(bare.sent[1]));
+  EXPECT_EQ(heard.refusal, Refusal::wrong_version);
+}
+
+struct Crime {
+  const char* name;
+  Violation violation;
+  std::vector<std::byte> frame;
+};
+
+std::vector<Crime> crimes() {
+  const std::uint32_t own = 1 * object_block;  // the second federate's block
+  const AttributeSet both{position, speed};
+  const auto updates = [](AttributeSet set, std::uint32_t value_size, std::span<const std::byte> records) {
+    UpdatesMessage message;
+    message.object_class = vessel_number;
+    message.attributes = set.bits;
+    message.value_size = value_size;
+    message.count = 1;
+    message.records = records;
+    return message;
+  };
+  static const auto foreign = values_of(std::uint32_t{0}, 1.0f, 2.0f, 3.0f), owned = values_of(own, 1.0f, 2.0f, 3.0f), short_record = values_of(own, 1.0f, 2.0f);
+  static const auto inverted = values_of(std::uint32_t{0}, 2.0, 2.0, 1.0, 1.0), infinite = values_of(std::uint32_t{0}, 0.0, 0.0, HUGE_VAL, 1.0);
+  const PublishObjectClassMessage publish{vessel_number, both.bits};
+  const RegisterObjectMessage here{own, vessel_number, ""};
+  std::vector<std::byte> too_long(frame_header_size);
+  too_long[2] = std::byte{2};
+  return {
+      {"SecondJoin", Violation::wrong_phase, frame_of(join_of("again"))},
+      {"UnknownKind", Violation::malformed, {std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{250}}},
+      {"OversizedFrame", Violation::oversized, too_long},
+      {"UnknownClass", Violation::unknown_name, frame_of(PublishObjectClassMessage{99, 1})},
+      {"UnknownAttribute", Violation::unknown_name, frame_of(PublishObjectClassMessage{vessel_number, 1u << 20})},
+      {"UnknownInteraction", Violation::unknown_name, frame_of(PublishInteractionClassMessage{99, 1})},
+      {"SubscriptionToUnknownRegion", Violation::unknown_name, frame_of(SubscribeObjectClassMessage{vessel_number, 1, 7})},
+      {"UnpublishedClass", Violation::undeclared, frame_of(here)},
+      {"HandleOutOfOrder", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{own + 5, vessel_number, ""})},
+      {"HandleOfSomebodyElse", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{0, vessel_number, ""})},
+      {"UpdateOfForeignObject", Violation::not_owned, frame_of(publish, updates(both, 12, foreign))},
+      {"UpdateOfUnpublishedAttribute", Violation::undeclared,
+       frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position}.bits}, here, updates(both, 12, owned))},
+      {"UpdateOfWrongSize", Violation::malformed, frame_of(publish, here, updates(both, 8, short_record))},
+      {"DeletionOfForeignObject", Violation::not_owned, frame_of(DeleteObjectMessage{0})},
+      {"DeletionOfUnknownObject", Violation::unknown_name, frame_of(DeleteObjectMessage{own + 9})},
+      {"UnpublishedInteraction", Violation::undeclared, frame_of(InteractionMessage{1, FederateHandle::none, {}, {}})},
+      {"RegionGap", Violation::unknown_name, frame_of(CreateRegionMessage{5})},
+      {"RegionTwice", Violation::unknown_name, frame_of(CreateRegionMessage{0}, CreateRegionMessage{0})},
+      {"UnknownRegion", Violation::unknown_name, frame_of(DeleteRegionMessage{3})},
+      {"InvertedRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, inverted})},
+      {"InfiniteRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, infinite})},
+      {"UnknownLabel", Violation::unknown_name, frame_of(SynchronizationPointAchievedMessage{"nothing"})},
+  };
+}
+
+class BadPeerCrime : public ::testing::TestWithParam<Crime> {};
+
+TEST_P(BadPeerCrime, IsNamedCountedAndDropped) {
+  Bare bare;
+  const ObjectHandle object = bare.witness.register_object_instance(vessel);
+  ASSERT_EQ(object.value, 0u);
+  bare.tick();
+  bare.enter(1, "villain");
+  ASSERT_EQ(bare.execution.federate_count(), 2u);
+  bare.execution.receive(1, GetParam().frame);
+  bare.execution.receive(1, frame_of(HeartbeatMessage{}));  // what follows is ignored
+  bare.tick();
+  EXPECT_EQ(bare.drops(GetParam().violation), 1u);
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+  EXPECT_EQ(bare.execution.federate_count(), 1u);
+  EXPECT_EQ(bare.execution.object_count(), 1u) << "the witness's own";
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Contains("villain misbehaved"));
+  EXPECT_EQ(bare.witness_heard.lost, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, BadPeerCrime, ::testing::ValuesIn(crimes()), [](const auto& crime) { return std::string(crime.param.name); });
+
+TEST(BadPeer, MayOnlyJoinBeforeItHasJoinedAndShortly) {
+  Bare bare;
+  bare.execution.connect(1);
+  bare.execution.receive(1, frame_of(HeartbeatMessage{}));
+  EXPECT_EQ(bare.drops(Violation::wrong_phase), 1u);
+  bare.execution.connect(2);
+  bare.execution.receive(2, values_of(std::uint32_t{frame_max_to_join + 1}));
+  EXPECT_EQ(bare.drops(Violation::oversized), 1u);
+  bare.tick();
+  EXPECT_EQ(bare.dropped.size(), 2u);
+}
+
+TEST(BadPeer, IsLostWhenSilentButNotWhenItPausesForTwoSeconds) {
+  Bare bare;
+  bare.enter(1, "sleeper");
+  bare.execution.advance_clock(2.0);
+  bare.tick();
+  EXPECT_EQ(bare.execution.federate_count(), 2u);
+  bare.witness.advance_clock(2.0);
+  bare.execution.receive(1, frame_of(HeartbeatMessage{}));
+  bare.execution.advance_clock(3.0);
+  for (double now = 4.0; now < 9.5; now += 1.0) {
+    bare.witness.advance_clock(now);
+    bare.execution.receive(0, bare.witness.outgoing());
+    bare.witness.clear_outgoing();
+    bare.execution.advance_clock(now);
+    bare.tick();
+  }
+  EXPECT_EQ(bare.execution.federate_count(), 1u);
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Contains("sleeper lost"));
+  EXPECT_EQ(bare.drops(Violation::silent), 1u);
+  EXPECT_EQ(bare.witness_heard.lost, "");
+}
+
+TEST(BadPeer, AnAmbassadorNoticesASilentRti) {
+  Recorder heard;
+  Ambassador lonely(harbour(), heard);
+  lonely.join("rink", "lonely", "tester");
+  lonely.advance_clock(100.0);
+  lonely.advance_clock(104.9);
+  EXPECT_EQ(heard.lost, "");
+  lonely.advance_clock(105.1);
+  EXPECT_NE(heard.lost, "");
+}
+
+/// What a busy federate says, as one stream.
+std::vector<std::byte> recorded_session() {
+  const AttributeSet both{position, speed};
+  static const auto records = values_of(object_block, 1.0f, 2.0f, 3.0f);
+  UpdatesMessage updates;
+  updates.object_class = vessel_number;
+  updates.attributes = both.bits;
+  updates.value_size = 12;
+  updates.count = 1;
+  updates.records = records;
+  static const auto bounds = values_of(std::uint32_t{0}, 1.0, 1.0, 2.0, 2.0);
+  static const auto words = bytes_of("ahoy");
+  std::vector<std::byte> session = frame_of(join_of("recorded"));
+  const auto rest = frame_of(WatchFederatesMessage{}, PublishObjectClassMessage{vessel_number, both.bits}, CreateRegionMessage{0},
+                             ModifyRegionsMessage{1, bounds}, SubscribeObjectClassMessage{vessel_number, both.bits, 0},
+                             RegisterObjectMessage{object_block, vessel_number, "Aurora"}, AssociateRegionMessage{object_block, 0}, updates,
+                             PublishInteractionClassMessage{1, 1}, SubscribeInteractionClassMessage{1, 1}, InteractionMessage{1, FederateHandle::none, {}, words},
+                             RegisterSynchronizationPointMessage{"start"}, SynchronizationPointAchievedMessage{"start"});
+  const auto end = frame_of(HeartbeatMessage{}, DeleteRegionMessage{0}, DeleteObjectMessage{object_block}, ResignMessage{});
+  session.insert(session.end(), rest.begin(), rest.end());
+  session.insert(session.end(), end.begin(), end.end());
+  return session;
+}
+
+TEST(Fuzz, ARecordedSessionMeansTheSameHoweverItIsCut) {
+  const auto session = recorded_session();
+  for (std::size_t step = 1; step < session.size(); ++step) {
+    Bare bare;
+    bare.execution.connect(1);
+    for (std::size_t at = 0; at < session.size(); at += step) bare.execution.receive(1, Bytes(session).subspan(at, std::min(step, session.size() - at)));
+    bare.tick();
+    ASSERT_EQ(bare.dropped[1], "resigned") << "cut every " << step << " bytes";
+    ASSERT_EQ(bare.execution.counters().updates_received, 1u);
+    ASSERT_EQ(bare.execution.object_count(), 0u);
+  }
+}
+
+TEST(Fuzz, TruncationsAtEveryByteHarmNobody) {
+  const auto session = recorded_session();
+  Bare bare;
+  for (std::size_t size = 0; size < session.size(); ++size) {
+    bare.execution.connect(1);
+    bare.execution.receive(1, Bytes(session).first(size));
+    bare.tick();
+    bare.execution.disconnect(1, "cut");
+    bare.tick();
+    ASSERT_EQ(bare.execution.federate_count(), 1u);
+    ASSERT_EQ(bare.execution.object_count(), 0u);
+  }
+  EXPECT_EQ(bare.witness_heard.lost, "");
+}
+
+TEST(Fuzz, FlippedBitsHarmNobodyButTheirSender) {
+  const unsigned seed = 7;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const auto session = recorded_session();
+  Bare bare;
+  for (int i = 0; i < 4000; ++i) {
+    auto flipped = session;
+    for (int k = 0; k < 1 + i % 3; ++k) flipped[random() % flipped.size()] ^= static_cast<std::byte>(1u << random() % 8);
+    bare.execution.connect(1);
+    bare.execution.receive(1, flipped);
+    bare.tick();
+    bare.execution.disconnect(1, "end");
+    bare.tick();
+    ASSERT_EQ(bare.execution.federate_count(), 1u);
+    ASSERT_EQ(bare.execution.object_count(), 0u);
+    ASSERT_EQ(bare.witness_heard.lost, "");
+  }
+}
+
+TEST(Fuzz, RandomBytesHarmNobodyBeforeAndAfterJoining) {
+  const unsigned seed = 8;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  Bare bare;
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<std::byte> noise(frame_header_size + 1 + random() % 200);
+    for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+    const auto length = static_cast<std::uint32_t>(noise.size() - frame_header_size);
+    if (i % 2 == 0) std::memcpy(noise.data(), &length, sizeof length);         // a frame of noise
+    noise[frame_header_size] = static_cast<std::byte>(random() % 20);            // of a kind that exists
+    bare.execution.connect(1);
+    if (i % 3 != 0) bare.execution.receive(1, frame_of(join_of("noisy")));
+    bare.execution.receive(1, noise);
+    bare.tick();
+    bare.execution.disconnect(1, "end");
+    bare.tick();
+    ASSERT_EQ(bare.execution.federate_count(), 1u);
+    ASSERT_EQ(bare.witness_heard.lost, "");
+  }
+}
+
+TEST(Fuzz, AnAmbassadorSurvivesWhateverAnRtiSends) {
+  const unsigned seed = 9;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  Bare bare;
+  bare.enter(1, "listener");
+  bare.execution.receive(1, frame_of(WatchFederatesMessage{}, SubscribeObjectClassMessage{vessel_number, 3, RegionHandle::none}));
+  const ObjectHandle object = bare.witness.register_object_instance(vessel, "Aurora");
+  bare.witness.update_attribute_values(object, AttributeSet{position, speed}, values_of(1.0f, 2.0f, 3.0f), {});
+  bare.tick();
+  const auto session = bare.sent[1];
+  for (int i = 0; i < 4000; ++i) {
+    auto flipped = session;
+    if (i != 0) flipped[random() % flipped.size()] ^= static_cast<std::byte>(1u << random() % 8);
+    if (i % 4 == 3) flipped.resize(random() % flipped.size());
+    FederateAmbassador silent;
+    Ambassador ambassador(harbour(), silent);
+    ambassador.join("rink", "listener", "tester");
+    const bool is_understood = ambassador.receive(flipped);
+    ASSERT_TRUE(i != 0 || (is_understood && ambassador.counters().updates_reflected == 1));
+  }
+}
+
+}  // namespace
+}  // namespace rink::rti::testing

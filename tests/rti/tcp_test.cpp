@@ -1,0 +1,299 @@
+// TCP as the federation sees it: errors by kind, slow readers, killed peers, and the kernel's own count.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Counts what a transport reports.
+struct Tally final : TransportListener {
+  int opened = 0, closed = 0;
+  std::uint64_t bytes = 0;
+  ConnectionId last = 0;
+  CloseReason reason = CloseReason::closed_by_us;
+  std::string detail;
+  void on_open(ConnectionId connection) override { ++opened, last = connection; }
+  void on_bytes(ConnectionId, Bytes received) override { bytes += received.size(); }
+  void on_close(ConnectionId, CloseReason why, const std::string& text) override { ++closed, reason = why, detail = text; }
+};
+
+TEST(Tcp, APortInUseAndAnUnknownAddressAreErrorsOfTheirOwn) {
+  TcpTransport first, second;
+  const std::uint16_t port = first.listen("127.0.0.1", 0);
+  try {
+    second.listen("127.0.0.1", port);
+    FAIL();
+  } catch (const TransportError& error) {
+    EXPECT_EQ(error.kind(), TransportError::Kind::in_use);
+    EXPECT_NE(std::string(error.what()).find("127.0.0.1:" + std::to_string(port)), std::string::npos) << error.what();
+  }
+  try {
+    second.listen("203.0.113.7", 0);  // an address of documentation, nobody's
+    FAIL();
+  } catch (const TransportError& error) {
+    EXPECT_EQ(error.kind(), TransportError::Kind::no_such_address);
+  }
+}
+
+TEST(Tcp, NobodyThereIsARefusal) {
+  std::uint16_t port = 0;
+  {
+    TcpTransport gone;
+    port = gone.listen("127.0.0.1", 0);
+  }
+  TcpTransport transport;
+  Tally tally;
+  transport.connect("127.0.0.1", port);
+  for (int i = 0; i < 100 && tally.closed == 0; ++i) transport.poll(10ms, tally);
+  EXPECT_EQ(tally.reason, CloseReason::refused);
+  EXPECT_NE(tally.detail.find(std::to_string(port)), std::string::npos);
+}
+
+TEST(Tcp, TheSamePortIsFreeAtOnceAfterARestart) {
+  std::uint16_t port = 0;
+  for (int life = 0; life < 3; ++life) {
+    TcpTransport server, client;
+    Tally here, there;
+    port = server.listen("127.0.0.1", port);
+    client.connect("127.0.0.1", port);
+    for (int i = 0; i < 100 && here.opened == 0; ++i) {
+      client.poll(0ms, there);
+      server.poll(10ms, here);
+    }
+    EXPECT_EQ(here.opened, 1);
+    server.close(here.last);  // the side that closes first keeps the port in TIME_WAIT
+    server.poll(0ms, here);
+  }
+}
+
+TEST(Tcp, CountsAgreeWithTheKernels) {
+  TcpTransport server, client;
+  Tally here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  while (here.opened == 0 || there.opened == 0) client.poll(1ms, there), server.poll(1ms, here);
+  const std::vector<std::byte> small(700), large(3000);
+  const std::array<Bytes, 2> parts{small, large};
+  for (int i = 0; i < 50; ++i) {
+    client.send(connection, parts);
+    server.poll(1ms, here);
+  }
+  while (here.bytes < 50 * 3700) client.poll(0ms, there), server.poll(1ms, here);
+  for (int i = 0; i < 100 && client.counters(connection).kernel_bytes_sent.value_or(0) < 50 * 3700; ++i) client.poll(1ms, there);
+  const TransportCounters sent = client.counters(connection), received = server.counters(here.last);
+  EXPECT_EQ(sent.bytes_sent, 50u * 3700u);
+  EXPECT_EQ(sent.writes, 50u);
+  EXPECT_EQ(sent.segments_sent, 50u * 3u);
+  ASSERT_TRUE(sent.kernel_bytes_sent && received.kernel_bytes_received);
+  EXPECT_LE(*sent.kernel_bytes_sent - sent.bytes_sent, 1u) << "the kernel counts the opening handshake as one byte";
+  EXPECT_EQ(*received.kernel_bytes_received, received.bytes_received);
+  EXPECT_EQ(received.bytes_received, sent.bytes_sent);
+  client.close(connection);
+  client.poll(1ms, there);
+  EXPECT_EQ(client.counters(connection).bytes_sent, sent.bytes_sent) << "the last count is kept";
+}
+
+TEST(Tcp, AReaderThatNeverReadsIsClosedAtItsQueuesLimit) {
+  TcpSettings settings;
+  settings.queue_max = 100'000;
+  TcpTransport server(settings), client;
+  Tally here, there;
+  client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  while (here.opened == 0 || there.opened == 0) client.poll(1ms, there), server.poll(1ms, here);
+  const std::vector<std::byte> chunk(10'000);
+  const Bytes part = chunk;
+  for (int i = 0; i < 10'000 && here.closed == 0; ++i) {
+    server.send(here.last, std::span(&part, 1));
+    EXPECT_LE(server.counters(here.last).queued_bytes, settings.queue_max);
+    server.poll(0ms, here);
+  }
+  EXPECT_EQ(here.closed, 1);
+  EXPECT_EQ(here.reason, CloseReason::queue_full);
+}
+
+TEST(Tcp, ManyFilesAreRaisedOrNamed) {
+  EXPECT_NO_THROW(ensure_file_limit(64));
+  try {
+    ensure_file_limit(std::size_t{1} << 40);
+    FAIL();
+  } catch (const TransportError& error) {
+    EXPECT_EQ(error.kind(), TransportError::Kind::too_many_files);
+    EXPECT_NE(std::string(error.what()).find("ulimit -n"), std::string::npos);
+  }
+}
+
+TEST(Tcp, AFederationDropsTheSlowReaderAndServesTheOthers) {
+  TcpSettings tcp;
+  tcp.queue_max = 200'000;
+  Rig rig(Carrier::tcp, {}, tcp);
+  Station& pilot = rig.join("pilot");
+  pilot.ambassador.publish_object_class_attributes(ferry, AttributeSet{destination});
+  Station& coast = rig.join("coast");
+  coast.ambassador.subscribe_object_class_attributes(ferry, AttributeSet{destination});
+  coast.ambassador.watch_federates();
+  // One that joins, subscribes, and never reads again.
+  TcpTransport deaf_transport;
+  Recorder deaf_heard;
+  Ambassador deaf(harbour(), deaf_heard);
+  FederateLink deaf_link(deaf, deaf_transport, deaf_transport.connect("127.0.0.1", rig.port()));
+  FederateLinks deaf_links;
+  deaf_links.add(deaf_link);
+  deaf.join("rink", "deaf", "tester");
+  deaf.subscribe_object_class_attributes(ferry, AttributeSet{destination});
+  for (int i = 0; i < 100 && !deaf.is_joined(); ++i) {
+    deaf_links.flush(0.0);
+    deaf_transport.poll(1ms, deaf_links);
+    rig.round();
+  }
+  ASSERT_TRUE(deaf.is_joined());
+  const ObjectHandle object = pilot.ambassador.register_object_instance(ferry);
+  const auto town = varying(std::string(30'000, 'x'));
+  for (int i = 0; i < 2000 && rig.host().closed_by_full_queue() == 0; ++i) {
+    pilot.ambassador.update_attribute_values(object, AttributeSet{destination}, town, {static_cast<double>(i), 0});
+    rig.round();
+  }
+  rig.settle();
+  EXPECT_EQ(rig.host().closed_by_full_queue(), 1u);
+  EXPECT_THAT(coast.heard.log, ::testing::Contains("deaf lost"));
+  EXPECT_EQ(static_cast<std::uint64_t>(coast.heard.objects[object.value].updates), pilot.ambassador.counters().updates_sent);
+  EXPECT_EQ(rig.execution().federate_count(), 2u);
+}
+
+TEST(Tcp, AKilledProcessLeavesTheFederationWithinASecond) {
+  Rig rig(Carrier::tcp);
+  Station& coast = rig.join("coast");
+  coast.ambassador.watch_federates();
+  rig.settle();
+  const pid_t child = fork();
+  if (child == 0) {
+    TcpTransport transport;
+    Recorder heard;
+    Ambassador doomed(harbour(), heard);
+    FederateLink link(doomed, transport, transport.connect("127.0.0.1", rig.port()));
+    FederateLinks links;
+    links.add(link);
+    doomed.join("rink", "doomed", "tester");
+    for (;;) {
+      links.flush(0.0);
+      transport.poll(10ms, links);
+    }
+  }
+  for (int i = 0; i < 5000 && rig.execution().federate_count() < 2; ++i) rig.round();
+  ASSERT_EQ(rig.execution().federate_count(), 2u);
+  kill(child, SIGKILL);
+  const auto start = std::chrono::steady_clock::now();
+  while (rig.execution().federate_count() == 2 && std::chrono::steady_clock::now() - start < 5s) rig.round();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
+  rig.settle();
+  EXPECT_THAT(coast.heard.log, ::testing::Contains("doomed lost"));
+  waitpid(child, nullptr, 0);
+}
+
+TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
+  TcpTransport transport;
+  Tally tally;
+  transport.listen("127.0.0.1", 0);
+  std::vector<double> late_ms;
+  for (int i = 0; i < 200; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    transport.poll(500us, tally);
+    const double waited_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_GE(waited_ms, 0.5);
+    late_ms.push_back(waited_ms - 0.5);
+  }
+  std::nth_element(late_ms.begin(), late_ms.begin() + 100, late_ms.end());
+  EXPECT_LT(late_ms[100], 5.0) << "the median, on a machine that may be busy";
+}
+
+TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
+  FederationExecution execution(harbour(), {});
+  FederationHost host(execution);
+  TcpTransport transport;
+  const std::uint16_t port = transport.listen("127.0.0.1", 0);
+  host.add(transport);
+  std::atomic<bool> is_over{false};
+  std::thread server([&] {
+    while (!is_over) {
+      host.poll(1ms);
+      host.match();
+      host.flush();
+    }
+  });
+  constexpr int client_count = 4, update_count = 200;
+  std::array<std::uint64_t, client_count> reflected{};
+  std::atomic<int> ready{0}, done{0};
+  std::vector<std::thread> clients;
+  for (int k = 0; k < client_count; ++k)
+    clients.emplace_back([&, k] {
+      TcpTransport own;
+      Recorder heard;
+      Ambassador ambassador(harbour(), heard);
+      FederateLink link(ambassador, own, own.connect("127.0.0.1", port));
+      FederateLinks links;
+      links.add(link);
+      const auto pump = [&] {
+        links.flush(0.0);
+        own.poll(1ms, links);
+      };
+      ambassador.join("rink", "client " + std::to_string(k), "tester");
+      ambassador.publish_object_class_attributes(vessel, AttributeSet{speed});
+      ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed});
+      while (!ambassador.is_joined() && heard.lost.empty()) pump();
+      const ObjectHandle object = ambassador.register_object_instance(vessel);
+      while (heard.objects.size() < client_count - 1 && heard.lost.empty()) pump();
+      ++ready;
+      while (ready < client_count) pump();
+      for (int i = 0; i < update_count; ++i) {
+        ambassador.update_attribute_values(object, AttributeSet{speed}, values_of(static_cast<float>(i)), {});
+        pump();
+      }
+      const std::uint64_t due = (client_count - 1) * update_count;
+      while (ambassador.counters().updates_reflected < due && heard.lost.empty()) pump();
+      reflected[static_cast<std::size_t>(k)] = ambassador.counters().updates_reflected;
+      ++done;
+      while (done < client_count) pump();
+    });
+  for (std::thread& client : clients) client.join();
+  is_over = true;
+  server.join();
+  for (const std::uint64_t count : reflected) EXPECT_EQ(count, (client_count - 1) * update_count);
+}
+
+TEST(InProcess, APollReportsWhatHappenedInTheOrderInWhichItDid) {
+  InProcessNetwork network(1000);
+  InProcessEndpoint server(network), client(network);
+  Tally here, there;
+  const ConnectionId lonely = client.connect("nobody");
+  client.poll(0ms, there);
+  EXPECT_EQ(there.reason, CloseReason::refused);
+  EXPECT_EQ(client.counters(lonely).bytes_sent, 0u);
+  server.listen("rti");
+  EXPECT_THROW(client.listen("rti"), TransportError);
+  const ConnectionId connection = client.connect("rti");
+  const std::vector<std::byte> words(400);
+  const Bytes part = words;
+  client.send(connection, std::span(&part, 1));
+  client.send(connection, std::span(&part, 1));
+  client.close(connection);
+  server.poll(0ms, here);
+  EXPECT_EQ(here.opened, 1);
+  EXPECT_EQ(here.bytes, 800u);
+  EXPECT_EQ(here.reason, CloseReason::closed_by_peer);
+  const ConnectionId second = client.connect("rti");
+  for (int i = 0; i < 3; ++i) client.send(second, std::span(&part, 1));
+  client.poll(0ms, there);
+  EXPECT_EQ(there.reason, CloseReason::queue_full);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
