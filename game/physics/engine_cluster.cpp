@@ -7,7 +7,7 @@ namespace rink::physics {
 
 namespace {
 constexpr std::uint32_t slow_impacts_max = 8;     // within contact_time, before a hop
-constexpr std::uint32_t impacts_max = 64;         // likewise, whatever their speed, where impacts lose energy
+constexpr std::uint32_t impacts_max = 24;         // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
@@ -30,14 +30,14 @@ bool Engine::hop(const Contact& c, double approach, double pressing, double time
   for (const std::uint32_t body : cluster_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
   for (const ClusterContact& contact : cluster_contacts_) given_back = std::min(given_back, contact.restitution);
   const double pressure = std::max(thrust_max, pressing);
-  if (pressure <= 0.0 && (given_back == 1.0 || cluster_contacts_.size() < 2)) return false;
+  if (cluster_contacts_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed)) return false;
+  if (pressure <= 0.0 && given_back == 1.0) return false;
   ++counters_.hops;
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : cluster_) {
     Rhythm& rhythm = rhythms_[body];
     if (time - rhythm.last_hop > 8.0 * contact_time) rhythm.hops = 0;
     rhythm.last_hop = time;
-    rhythm.impacts = 0;
   }
   may_freeze = may_freeze && rhythms_[c.body].hops % 4 == 0;
   for (const std::uint32_t body : cluster_) ++rhythms_[body].hops;
