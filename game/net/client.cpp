@@ -1,0 +1,121 @@
+// Takes a seat, subscribes around it, reaches the start barrier, then plays.
+#include "game/net/client.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "game/replication/names.h"
+
+namespace rink::game {
+
+Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
+    : model_(model), view_fraction_(settings.view_fraction), mirror_(model), ambassador_(fom, *this) {
+  ambassador_.join(settings.federation, settings.name, player_federate_type);
+}
+
+void Client::joined(rti::FederateHandle) {
+  for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
+  ambassador_.subscribe_interaction_class(model_.seat);
+  ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent});
+  ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
+}
+
+void Client::join_refused(rti::Refusal refusal, std::string_view why) {
+  state_ = State::refused;
+  refusal_ = refusal;
+  trouble_ = why;
+}
+
+void Client::connection_lost(std::string_view why) {
+  state_ = State::lost;
+  trouble_ = why;
+}
+
+void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle, const rti::Stamp&) {
+  SeatOffer offer;
+  if (interaction != model_.seat || state_ != State::joining || !decode(parameters, offer)) return;
+  if (offer.bat == SeatOffer::no_bat) {
+    state_ = State::refused;
+    trouble_ = "no bat is free";
+    return;
+  }
+  seat_ = offer;
+  subscribe_once_seated();
+}
+
+/// Seat and field come by separate messages, in either order.
+void Client::subscribe_once_seated() {
+  if (state_ != State::joining || !seat_ || !mirror_.field()) return;
+  state_ = State::seated;
+  view_ = ambassador_.create_region();
+  look_around(seat_->position);
+  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position}, view_);
+}
+
+void Client::look_around(const Position& centre) {
+  centre_ = centre;
+  const Extent& field = *mirror_.field();
+  const double half_side = view_fraction_ < 1.0 ? 0.5 * std::sqrt(view_fraction_ * double(field.length) * double(field.width))
+                                                : 2.0 * double(std::max(field.length, field.width));
+  ambassador_.set_region(view_, {centre.x - half_side, centre.y - half_side, centre.x + half_side, centre.y + half_side});
+  ambassador_.commit_region_modifications(view_);
+}
+
+void Client::follow_bat() {
+  const MirroredEntity* own = bat();
+  if (state_ >= State::refused || own == nullptr || own->position == centre_) return;
+  look_around(own->position);
+}
+
+void Client::press(Key key) { send_key(model_.key_down, key); }
+void Client::release(Key key) { send_key(model_.key_up, key); }
+
+void Client::send_key(rti::InteractionClassHandle interaction, Key key) {
+  assert(state_ == State::playing);
+  const KeyCharacter character{static_cast<std::uint8_t>(key_character(key))};
+  ambassador_.send_interaction(interaction, encode(encoded_, character), {});
+  ++keys_sent_;
+}
+
+void Client::end_turn() { ambassador_.send_interaction(model_.update, {}, {}); }
+
+void Client::announce_synchronization_point(std::string_view label) {
+  if (label != start_barrier) return;
+  is_called_ = true;
+  reach_barrier_once_ready();
+}
+
+/// The barrier is reached with the own bat in sight, so that nothing of the start-up falls into the measured time.
+void Client::reach_barrier_once_ready() {
+  const MirroredEntity* own = bat();
+  if (state_ == State::seated && own != nullptr && own->in_scope) state_ = State::ready;
+  if (state_ != State::ready) return;
+  if (is_called_) {
+    ambassador_.synchronization_point_achieved(start_barrier);
+    is_called_ = false;
+  } else if (own->stamp.time > 0.0) {
+    state_ = State::playing;  // joined late: the game runs already
+  }
+}
+
+void Client::federation_synchronized(std::string_view label) {
+  if (label == start_barrier && state_ == State::ready) state_ = State::playing;
+}
+
+void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class, std::string_view name) {
+  mirror_.discover(object, object_class);
+  if (seat_ && name == bat_name(seat_->bat)) bat_ = object;
+}
+
+void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
+  mirror_.reflect(object, attributes, values, stamp);
+  if (state_ == State::joining) subscribe_once_seated();
+  if ((state_ == State::seated || state_ == State::ready) && object == bat_) reach_barrier_once_ready();
+}
+
+void Client::attributes_in_scope(rti::ObjectHandle object) { mirror_.set_scope(object, true); }
+void Client::attributes_out_of_scope(rti::ObjectHandle object) { mirror_.set_scope(object, false); }
+void Client::remove_object_instance(rti::ObjectHandle object) { mirror_.remove(object); }
+
+}  // namespace rink::game

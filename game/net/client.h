@@ -1,0 +1,85 @@
+// The client federate: sends its player's keys, keeps its interest around its bat, and mirrors what it is told.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "game/model/key.h"
+#include "game/replication/mirror.h"
+#include "rti/ambassador.h"
+
+namespace rink::game {
+
+struct ClientSettings {
+  std::string federation = "rink";
+  std::string name;             ///< of the federate; "bat-17" asks for that bat
+  double view_fraction = 0.05;  ///< area of the square interest region around the bat, as a fraction of the field's; at least 1: everything
+};
+
+/// One player's federate. No clock, no socket: `ambassador` takes and gives the bytes.
+class Client : public rti::FederateAmbassador {
+ public:
+  enum class State : std::uint8_t { joining, seated, ready, playing, refused, lost };
+
+  Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings);
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  rti::Ambassador& ambassador() { return ambassador_; }
+
+  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing.
+  void press(Key key);
+  void release(Key key);
+  /// Synchronous mode: says that this player's turn is done.
+  void end_turn();
+  /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move.
+  void follow_bat();
+
+  State state() const { return state_; }
+  /// Why the state is refused or lost.
+  const std::string& trouble() const { return trouble_; }
+  /// Why the RTI refused the join, if it did.
+  std::optional<rti::Refusal> refusal() const { return refusal_; }
+  /// The own bat as last heard of; null before the first update.
+  const MirroredEntity* bat() const { return mirror_.find(bat_); }
+  std::uint32_t keys_sent() const { return keys_sent_; }
+  const Mirror& mirror() const { return mirror_; }
+
+ private:
+  void joined(rti::FederateHandle federate) override;
+  void join_refused(rti::Refusal refusal, std::string_view why) override;
+  void connection_lost(std::string_view why) override;
+  void announce_synchronization_point(std::string_view label) override;
+  void federation_synchronized(std::string_view label) override;
+  void discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class, std::string_view name) override;
+  void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) override;
+  void attributes_in_scope(rti::ObjectHandle object) override;
+  void attributes_out_of_scope(rti::ObjectHandle object) override;
+  void remove_object_instance(rti::ObjectHandle object) override;
+  void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
+
+  void send_key(rti::InteractionClassHandle interaction, Key key);
+  void look_around(const Position& centre);
+  void subscribe_once_seated();
+  void reach_barrier_once_ready();
+
+  const ObjectModel& model_;
+  double view_fraction_;
+  Mirror mirror_;
+  rti::Ambassador ambassador_;
+  rti::ObjectHandle bat_;
+  rti::RegionHandle view_;
+  std::optional<SeatOffer> seat_;
+  Position centre_;
+  std::vector<std::byte> encoded_;
+  bool is_called_ = false;  ///< to the start barrier
+  std::uint32_t keys_sent_ = 0;
+  State state_ = State::joining;
+  std::string trouble_;
+  std::optional<rti::Refusal> refusal_;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,34 @@
+// What the networked commands return, so that a script can tell one failure from another.
+#pragma once
+
+#include "rti/membership.h"
+
+namespace rink::game {
+
+/// Exit statuses of rink-serve and rink-bots; every command's --help lists them.
+enum class ExitStatus : int {
+  ok = 0,
+  failed = 1,          ///< something the operating system refused
+  bad_input = 2,       ///< a flag or a file
+  address_in_use = 10, ///< or not of this machine
+  no_server = 11,      ///< nobody listens there
+  wrong_version = 12,
+  wrong_fom = 13,
+  not_admitted = 14,   ///< name taken, federation full or of another name, no bat free
+  too_few_files = 15,  ///< the limit of open files is too low and may not be raised
+  connection_lost = 16,
+  nobody_came = 17,    ///< the players that were waited for did not all join in time
+  interrupted = 130
+};
+
+inline constexpr const char* exit_status_help =
+    "Exit status: 0 done, 1 failed, 2 bad flag or file, 10 address in use, 11 no server there, 12 wrong protocol version, 13 wrong object model,\n"
+    "14 not admitted, 15 too few file descriptors, 16 connection lost, 17 players did not come, 130 interrupted.";
+
+constexpr ExitStatus exit_status(rti::Refusal refusal) {
+  if (refusal == rti::Refusal::wrong_version) return ExitStatus::wrong_version;
+  if (refusal == rti::Refusal::wrong_fom) return ExitStatus::wrong_fom;
+  return ExitStatus::not_admitted;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,140 @@
+// Seats players, stamps their keys with the simulated instant of their arrival, and steps the game.
+#include "game/net/server.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "game/replication/names.h"
+
+namespace rink::game {
+
+Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings, std::function<double()> now)
+    : model_(fom), now_(std::move(now)), game_(scene), is_replay_(settings.replay.has_value()), policy_(make_update_policy(settings.policy)), ambassador_(fom, *this) {
+  assert(policy_ && "the command line is checked against update_policy_names()");
+  is_taken_.resize(game_.player_count());
+  felt_.resize(game_.player_count());
+  if (is_replay_)
+    for (const InputEvent& event : *settings.replay) submit(event);
+  ambassador_.join(settings.federation, "server", "server");
+}
+
+void Server::joined(rti::FederateHandle) {
+  ambassador_.watch_federates();
+  ambassador_.publish_interaction_class(model_.seat);
+  for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.subscribe_interaction_class(interaction);
+  publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_);
+}
+
+void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
+void Server::connection_lost(std::string_view why) { trouble_ = why; }
+
+void Server::call_to_start() { ambassador_.register_synchronization_point(start_barrier); }
+
+void Server::announce_synchronization_point(std::string_view label) { ambassador_.synchronization_point_achieved(label); }
+
+void Server::federation_synchronized(std::string_view label) { is_started_ = is_started_ || label == start_barrier; }
+
+void Server::federate_joined(rti::FederateHandle federate, std::string_view name, std::string_view type) {
+  if (type != player_federate_type) return;
+  const std::optional<std::uint32_t> player = free_seat(name);
+  if (!player) return offer_seat(federate, {});
+  if (seats_.size() <= federate.value) seats_.resize(federate.value + 1);
+  seats_[federate.value] = Seat{.player = *player};
+  if (!is_replay_ && !game_.bat(*player)) submit({.time = std::max(now_(), game_.now()), .player = *player, .kind = InputKind::enter});
+  is_taken_[*player] = true;
+  felt_[*player] = 0;
+  ++player_count_;
+}
+
+void Server::federate_resigned(rti::FederateHandle federate, std::string_view, std::string_view, rti::ResignReason reason) {
+  if (reason != rti::ResignReason::resigned) ++counters_.federates_lost;
+  const Seat* seat = seat_of(federate);
+  if (seat == nullptr) return;
+  const std::uint32_t player = seat->player;
+  std::erase_if(pending_, [player](const Pending& pending) { return pending.player == player; });
+  if (!is_replay_) submit({.time = std::max(now_(), game_.now()), .player = player, .kind = InputKind::leave});
+  if (seat->is_turn_done) --turns_done_;
+  --player_count_;
+  is_taken_[player] = false;
+  seats_[federate.value].reset();
+}
+
+/// The bat that bears the federate's name ("bat-17"), or else the first free one.
+std::optional<std::uint32_t> Server::free_seat(std::string_view federate_name) const {
+  for (std::uint32_t player = 0; player < is_taken_.size(); ++player)
+    if (!is_taken_[player] && federate_name == bat_name(player)) return player;
+  const auto free = std::find(is_taken_.begin(), is_taken_.end(), false);
+  if (free == is_taken_.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(free - is_taken_.begin());
+}
+
+void Server::offer_seat(rti::FederateHandle federate, const SeatOffer& offer) {
+  std::vector<std::byte> bytes;
+  ambassador_.send_directed_interaction(model_.seat, federate, encode(bytes, offer), {.time = game_.now(), .tag = 0});
+}
+
+void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp&) {
+  Seat* seat = seat_of(sender);
+  if (seat == nullptr) return;
+  if (interaction == model_.update) {
+    turns_done_ += seat->is_turn_done ? 0u : 1u;
+    seat->is_turn_done = true;
+  } else {
+    receive_key(*seat, parameters, interaction == model_.key_down);
+  }
+}
+
+void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down) {
+  ++counters_.keys_received;
+  KeyCharacter character;
+  const std::optional<Key> key = decode(parameters, character) ? key_from_character(static_cast<char>(character.character)) : std::nullopt;
+  if (!key) {
+    ++counters_.keys_refused;
+    return;
+  }
+  const double time = std::max(now_(), game_.now());
+  pending_.push_back({.time = time, .player = seat.player});
+  if (!is_replay_) submit({.time = time, .player = seat.player, .kind = is_down ? InputKind::key_down : InputKind::key_up, .key = *key});
+}
+
+void Server::submit(const InputEvent& event) {
+  game_.submit(event);
+  record_.push_back(event);
+}
+
+void Server::simulate(double until) {
+  game_.advance(until);
+  std::erase_if(pending_, [&](const Pending& pending) {
+    if (pending.time > until) return false;
+    ++felt_[pending.player];
+    ++counters_.keys_applied;
+    return true;
+  });
+  for (std::optional<Seat>& seat : seats_)
+    if (seat) seat->is_turn_done = false;
+  turns_done_ = 0;
+}
+
+void Server::publish(const rti::Stamp& stamp) {
+  publisher_->publish(game_, felt_, stamp);
+  offer_seats();
+}
+
+/// A player is told of its seat once the bat is there; one that comes back to a running game may have to wait for a free place.
+void Server::offer_seats() {
+  for (std::uint32_t federate = 0; federate < seats_.size(); ++federate) {
+    std::optional<Seat>& seat = seats_[federate];
+    if (!seat || seat->is_offered) continue;
+    const std::optional<EntityId> bat = game_.bat(seat->player);
+    if (!bat) continue;
+    offer_seat(rti::FederateHandle{federate}, {.bat = seat->player, .position = rounded(game_.position(*bat))});
+    seat->is_offered = true;
+  }
+}
+
+Server::Seat* Server::seat_of(rti::FederateHandle federate) {
+  return federate.value < seats_.size() && seats_[federate.value] ? &*seats_[federate.value] : nullptr;
+}
+
+}  // namespace rink::game

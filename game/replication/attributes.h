@@ -1,0 +1,110 @@
+// What the attributes and parameters of Rink's object model hold; one function writes and reads each (docs/wire.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/body.h"
+#include "rti/stream.h"
+
+namespace rink::game {
+
+/// Where an entity's centre is [m], in single precision: on a 20 m field that rounds by at most 1e-6 m.
+struct Position {
+  float x = 0.0f, y = 0.0f;
+  friend bool operator==(const Position&, const Position&) = default;
+};
+
+/// What a federate is told of a centre at `position` [m].
+inline Position rounded(const physics::Vector2& position) { return {static_cast<float>(position.x()), static_cast<float>(position.y())}; }
+
+/// What an entity is. For discs both half extents are the radius [m].
+struct Shape {
+  std::uint8_t kind = 0;  ///< a physics::BodyKind
+  std::uint8_t team = 0;  ///< a Team
+  float half_length = 0.0f, half_width = 0.0f;
+};
+
+/// How many of its player's key events a bat has felt, and the keys that are down (bit k for Key k).
+struct Input {
+  std::uint32_t count = 0;
+  std::uint8_t held = 0;
+  friend bool operator==(const Input&, const Input&) = default;
+};
+
+struct Goals {
+  std::uint32_t left = 0, right = 0;
+  std::uint8_t is_over = 0;
+  friend bool operator==(const Goals&, const Goals&) = default;
+};
+
+/// Length and width of the field [m].
+struct Extent {
+  float length = 0.0f, width = 0.0f;
+};
+
+/// One key, as the character of the paper's KeyDown and KeyUp: a, d, w or s.
+struct KeyCharacter {
+  std::uint8_t character = 0;
+};
+
+/// Which bat a player was given (bat k is the object called "bat-k"; all bits set for none) and where it is: enough to declare a first interest.
+struct SeatOffer {
+  static constexpr std::uint32_t no_bat = 0xffffffffu;
+  std::uint32_t bat = no_bat;
+  Position position;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, Position& position) {
+  return stream.number(position.x) && stream.number(position.y);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Shape& shape) {
+  return stream.number(shape.kind) && stream.number(shape.team) && stream.number(shape.half_length) && stream.number(shape.half_width);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Input& input) {
+  return stream.number(input.count) && stream.number(input.held);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Goals& goals) {
+  return stream.number(goals.left) && stream.number(goals.right) && stream.number(goals.is_over);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Extent& extent) {
+  return stream.number(extent.length) && stream.number(extent.width);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, KeyCharacter& key) {
+  return stream.number(key.character);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, SeatOffer& seat) {
+  return stream.number(seat.bat) && exchange(stream, seat.position);
+}
+
+/// The values one after the other, in `buffer`, which is overwritten; valid as long as it is.
+template <class... Values>
+rti::Bytes encode(std::vector<std::byte>& buffer, Values... values) {
+  buffer.clear();
+  rti::Writer writer(buffer);
+  (exchange(writer, values), ...);
+  return buffer;
+}
+
+/// Reads `value` from exactly all of `bytes`, which came from a stranger: false otherwise, and the value may be half read.
+template <class Value>
+bool decode(rti::Bytes bytes, Value& value) {
+  rti::Reader reader(bytes);
+  return exchange(reader, value) && reader.is_at_end();
+}
+
+}  // namespace rink::game

@@ -1,0 +1,18 @@
+// What the server and its clients must call by the same name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace rink::game {
+
+/// The synchronisation point that every federate reaches before the first tick.
+inline constexpr const char* start_barrier = "start";
+
+/// Federates of this type are given a bat; others only watch.
+inline constexpr const char* player_federate_type = "player";
+
+/// The RTI object that player `player` plays.
+inline std::string bat_name(std::uint32_t player) { return "bat-" + std::to_string(player); }
+
+}  // namespace rink::game

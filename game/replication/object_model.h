@@ -1,0 +1,21 @@
+// The handles of Rink's object model, looked up by name once so that a model file that lacks something is refused at the start.
+#pragma once
+
+#include "rti/fom.h"
+#include "rti/handles.h"
+
+namespace rink::game {
+
+/// Handles of every class, attribute and dimension that the game uses (game/net/rink.fom.xml).
+struct ObjectModel {
+  /// Throws rti::FileError naming the first class or attribute that `fom` lacks, or whose size is not what the game sends.
+  explicit ObjectModel(const rti::Fom& fom);
+
+  rti::ObjectClassHandle entity, score, field;
+  rti::AttributeHandle shape, input, position;  ///< of entity
+  rti::AttributeHandle goals;                   ///< of score
+  rti::AttributeHandle extent;                  ///< of field
+  rti::InteractionClassHandle key_down, key_up, update, seat;
+};
+
+}  // namespace rink::game

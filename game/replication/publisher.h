@@ -1,0 +1,63 @@
+// Turns what a game did since the last tick into RTI updates: the only way by which entities leave the server.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/replication/attributes.h"
+#include "game/replication/object_model.h"
+#include "game/replication/update_policy.h"
+#include "rti/ambassador.h"
+
+namespace rink::game {
+
+/// What a publisher sent since it was made.
+struct PublisherCounters {
+  std::uint64_t positions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
+};
+
+/// Registers a game's entities as RTI objects, each with its bounding box as update region, and keeps both up to date.
+/// What did not change is not sent again, except positions where the policy says so.
+class Publisher {
+ public:
+  /// `ambassador` must have joined. Publishes the classes and registers the field and the score.
+  Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game);
+
+  /// Hands everything new to the ambassador: entities that came or went, moved regions, due positions, felt keys, the score.
+  /// `felt[k]` is the number of player k's key events that the game has felt; players beyond its end felt none.
+  void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
+
+  /// The RTI object of `entity`, which must be in the game.
+  rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
+
+  const PublisherCounters& counters() const { return counters_; }
+
+ private:
+  struct Published {
+    rti::ObjectHandle object;
+    rti::RegionHandle region;
+    Position position;
+    Input input;
+    std::uint64_t tick = 0;  ///< of its last appearance in the game
+  };
+
+  void add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
+  void retire_absent();
+  void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
+  void publish_score(const Game& game, const rti::Stamp& stamp);
+
+  const ObjectModel& model_;
+  rti::Ambassador& ambassador_;
+  UpdatePolicy& policy_;
+  std::vector<Published> published_;  ///< by entity
+  std::vector<rti::RegionBounds> moved_;
+  std::vector<std::byte> encoded_;
+  rti::ObjectHandle field_, score_;
+  Goals goals_;
+  std::uint64_t tick_ = 0;
+  PublisherCounters counters_;
+};
+
+}  // namespace rink::game

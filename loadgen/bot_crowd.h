@@ -1,0 +1,116 @@
+// Any number of headless clients over one transport, each with a connection, a federate and a key plan of its own.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/control/key_log.h"
+#include "game/net/client.h"
+#include "game/net/exit_status.h"
+#include "loadgen/probe.h"
+#include "rti/transport/transport.h"
+
+namespace rink::loadgen {
+
+struct BotCrowdSettings {
+  std::string federation = "rink";
+  std::uint32_t first = 0;     ///< the bots play bats first, first + 1, ...
+  double view_fraction = 0.05; ///< see game::ClientSettings
+  double warm_up_s = 0.0;      ///< simulated time from which on things are counted
+  double duration_s = 10.0;    ///< simulated time at which the bots stop
+};
+
+/// What the connections of a crowd carried, summed.
+struct CrowdTraffic {
+  std::uint64_t bytes_sent = 0, bytes_received = 0, segments_sent = 0, kernel_bytes_sent = 0, kernel_bytes_received = 0, updates_received = 0;
+};
+
+/// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock: it is handed `now_s` [s], the clock that the server's stamps use.
+class BotCrowd : public rti::TransportListener {
+ public:
+  using Connect = std::function<rti::ConnectionId(std::uint32_t bot)>;
+  using Clock = std::function<double()>;
+
+  /// `plan`: the keys of all players, ordered by time; each bot takes those of its bat.
+  BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrowdSettings& settings, std::uint32_t count, const std::vector<game::InputEvent>& plan, Clock now_s);
+
+  /// Opens the connections and sends the joins.
+  void connect(const Connect& connect);
+
+  /// Waits for the transport, at most until the next key is due, and handles what came; then presses the keys that are due. Call it until `is_over`.
+  void run_once();
+
+  /// True when the duration has passed, or when no bot is left.
+  bool is_over() const;
+  /// Makes every bot resign, so that the server sees an orderly end.
+  void resign();
+
+  std::uint32_t bot_count() const { return static_cast<std::uint32_t>(bots_.size()); }
+  std::uint32_t lost_count() const { return lost_; }
+  /// Why the first bot that was lost or refused was; empty if none was.
+  const std::string& first_trouble() const { return first_trouble_; }
+  game::ExitStatus first_status() const { return first_status_; }
+  bool has_started() const { return origin_s_.has_value(); }
+
+  const Measurements& measurements() const { return measurements_; }
+  std::uint64_t unanswered_keys() const;
+  /// Within the measured span, and its length on the clock [s].
+  const CrowdTraffic& traffic() const { return measured_; }
+  double measured_s() const { return measured_s_; }
+  /// Since the start, now.
+  CrowdTraffic total_traffic() const;
+
+ private:
+  struct Bot {
+    Bot(const rti::Fom& fom, const game::ObjectModel& model, const game::ClientSettings& settings, Measurements& measurements)
+        : client(fom, model, settings), probe(measurements) {}
+    game::Client client;
+    Probe probe;
+    rti::ConnectionId connection = 0;
+    std::uint64_t seen_tag = 0;
+    bool is_lost = false;
+  };
+  struct DueKey {
+    double time;
+    std::uint32_t bot;
+    game::Key key;
+    bool is_down;
+  };
+
+  void on_open(rti::ConnectionId connection) override;
+  void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override;
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override;
+
+  void after_receiving(Bot& bot);
+  void send(Bot& bot);
+  void lose(Bot& bot, const std::string& why, game::ExitStatus status);
+  void advance_clocks();
+  void press_due_keys();
+  void measure_span();
+  double due_s(double simulated_s) const { return *origin_s_ + simulated_s; }
+
+  const game::ObjectModel model_;
+  rti::Transport& transport_;
+  BotCrowdSettings settings_;
+  Clock now_s_;
+  Measurements measurements_;
+  std::vector<std::unique_ptr<Bot>> bots_;
+  std::vector<std::uint32_t> bot_of_connection_;
+  std::vector<DueKey> plan_;
+  std::size_t next_key_ = 0;
+  std::optional<double> origin_s_;  ///< the clock at simulated time 0, from the first stamp
+  std::optional<double> span_begin_s_;
+  CrowdTraffic at_begin_, measured_;
+  double measured_s_ = 0.0;
+  bool is_measured_ = false;
+  std::uint32_t lost_ = 0;
+  std::string first_trouble_;
+  game::ExitStatus first_status_ = game::ExitStatus::no_server;
+  double clocks_advanced_s_ = 0.0;
+};
+
+}  // namespace rink::loadgen

@@ -1,0 +1,168 @@
+// rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the run.
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "game/control/key_log.h"
+#include "game/net/exit_status.h"
+#include "game/net/fom_file.h"
+#include "loadgen/bot_crowd.h"
+#include "loadgen/plan.h"
+#include "rti/transport/tcp.h"
+
+namespace {
+
+using namespace rink;
+using Json = nlohmann::ordered_json;
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+struct Options {
+  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report;
+  std::uint32_t count = 1, first = 0;
+  std::uint64_t seed = 1;
+  double view_fraction = 0.05, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
+};
+
+/// More than this fraction of late keys, and the plan was not what was played.
+constexpr double late_fraction_max = 0.01;
+
+double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
+
+void add_options(CLI::App& app, Options& options) {
+  app.description("Any number of headless clients in one process, each with its own connection, pressing keys by a plan fixed before the run.");
+  app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 --duration 30 --report bots.json\n\n") + game::exit_status_help);
+  app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
+  app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
+  app.add_option("--count", options.count, "bots")->check(CLI::Range(1u, 100'000u))->capture_default_str();
+  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->capture_default_str();
+  app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
+  app.add_option("--seed", options.seed, "of the plan")->capture_default_str();
+  app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(CLI::NonNegativeNumber)->capture_default_str();
+  app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--report", options.report, "file for the measurements, as JSON");
+}
+
+std::vector<game::InputEvent> plan_of(const Options& options) {
+  if (!options.plan.empty()) return game::read_key_log(options.plan).events;
+  return loadgen::input_events(loadgen::random_plan(options.seed, options.first + options.count, options.duration_s));
+}
+
+/// "127.0.0.1:4711" or "[::1]:4711" in two; throws std::invalid_argument.
+std::pair<std::string, std::uint16_t> address_and_port(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const bool has_port = colon != std::string::npos && colon + 1 < text.size() && text.find_first_not_of("0123456789", colon + 1) == std::string::npos && text.size() - colon <= 6;
+  const unsigned long port = has_port ? std::stoul(text.substr(colon + 1)) : 0;
+  if (port == 0 || port > 65535 || colon == 0) throw std::invalid_argument("--connect: '" + text + "' is not ADDRESS:PORT with a port from 1 to 65535");
+  std::string address = text.substr(0, colon);
+  if (address.size() > 2 && address.front() == '[' && address.back() == ']') address = address.substr(1, address.size() - 2);
+  return {address, static_cast<std::uint16_t>(port)};
+}
+
+std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) {
+  const loadgen::Measurements& measured = crowd.measurements();
+  if (is_interrupted) return "interrupted";
+  if (crowd.lost_count() > 0) return std::to_string(crowd.lost_count()) + " of " + std::to_string(options.count) + " bots were lost: " + crowd.first_trouble();
+  if (!crowd.has_started()) return "the game did not start";
+  if (measured.keys_sent < measured.keys_due) return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
+  if (static_cast<double>(measured.late_sends) > late_fraction_max * static_cast<double>(measured.keys_sent))
+    return "the bots could not keep their schedule: " + std::to_string(measured.late_sends) + " of " + std::to_string(measured.keys_sent) + " keys went out more than " +
+           std::to_string(static_cast<int>(loadgen::Probe::late_s * 1e6)) + " us late";
+  return "";
+}
+
+Json report(const Options& options, const loadgen::BotCrowd& crowd) {
+  const loadgen::Measurements& measured = crowd.measurements();
+  const loadgen::CrowdTraffic traffic = crowd.traffic(), total = crowd.total_traffic();
+  const std::string why = why_invalid(options, crowd);
+  return {{"clients", options.count},
+          {"measured_s", crowd.measured_s()},
+          {"bytes_received", traffic.bytes_received},
+          {"bytes_sent", traffic.bytes_sent},
+          {"segments_sent", traffic.segments_sent},
+          {"updates_received", traffic.updates_received},
+          {"update_age_ms", measured.update_age.to_json()},
+          {"key_to_effect_ms", measured.key_to_effect.to_json()},
+          {"keys_due", measured.keys_due},
+          {"keys_sent", measured.keys_sent},
+          {"keys_unanswered", crowd.unanswered_keys()},
+          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
+          {"send_lateness_ms", measured.send_lateness.to_json()},
+          {"federates_lost", crowd.lost_count()},
+          {"total_bytes_received", total.bytes_received},
+          {"total_bytes_sent", total.bytes_sent},
+          {"kernel_bytes_received", total.kernel_bytes_received},
+          {"kernel_bytes_sent", total.kernel_bytes_sent},
+          {"valid", why.empty()},
+          {"why_invalid", why}};
+}
+
+game::ExitStatus status(const loadgen::BotCrowd& crowd) {
+  if (is_interrupted) return game::ExitStatus::interrupted;
+  if (!crowd.has_started() || crowd.lost_count() > 0) {
+    spdlog::error("{} of {} bots were lost: {}", crowd.lost_count(), crowd.bot_count(), crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
+    return crowd.first_status();
+  }
+  return game::ExitStatus::ok;
+}
+
+game::ExitStatus play(const Options& options) {
+  const auto [address, port] = address_and_port(options.connect);
+  const rti::Fom fom = rti::Fom::load(game::fom_file());
+  const std::vector<game::InputEvent> plan = plan_of(options);
+  rti::ensure_file_limit(options.count + 64u);
+  rti::TcpTransport transport;
+  const loadgen::BotCrowdSettings settings{.federation = options.federation,
+                                           .first = options.first,
+                                           .view_fraction = options.view_fraction,
+                                           .warm_up_s = options.warm_up_s,
+                                           .duration_s = options.duration_s};
+  loadgen::BotCrowd crowd(fom, transport, settings, options.count, plan, now_s);
+  crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
+  const double give_up_s = now_s() + options.patience_s;
+  while (!is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) crowd.run_once();
+  const Json written = report(options, crowd);
+  const game::ExitStatus result = status(crowd);
+  crowd.resign();
+  if (!options.report.empty()) {
+    std::ofstream file(options.report);
+    file << written.dump(2) << '\n';
+    if (!file.flush()) throw std::runtime_error("cannot write '" + options.report + "'");
+  } else {
+    std::printf("%s\n", written.dump(2).c_str());
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  CLI::App app;
+  Options options;
+  add_options(app, options);
+  try {
+    app.parse(count, values);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
+  }
+  std::signal(SIGINT, [](int) { is_interrupted = 1; });
+  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return static_cast<int>(play(options));
+  } catch (const rti::TransportError& error) {
+    spdlog::error("{}", error.what());
+    const bool lacks_files = error.kind() == rti::TransportError::Kind::too_many_files;
+    return static_cast<int>(lacks_files ? game::ExitStatus::too_few_files : game::ExitStatus::no_server);
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return static_cast<int>(game::ExitStatus::bad_input);
+  }
+}

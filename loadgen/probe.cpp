@@ -1,0 +1,28 @@
+// Latency counts from the instant an action was due, so that a stalled server or bot cannot hide its stall.
+#include "loadgen/probe.h"
+
+#include <algorithm>
+
+namespace rink::loadgen {
+
+void Probe::key_sent(double due_s, double sent_s, bool is_counted) {
+  waiting_.push_back({due_s, is_counted});
+  if (!is_counted) return;
+  ++measurements_.keys_sent;
+  measurements_.send_lateness.record(sent_s - due_s);
+  if (sent_s - due_s > late_s) ++measurements_.late_sends;
+}
+
+void Probe::batch_applied(double due_s, double now_s, std::uint32_t felt, bool is_counted) {
+  if (is_counted) measurements_.update_age.record(now_s - due_s);
+  for (; answered_ < felt && !waiting_.empty(); ++answered_) {
+    if (waiting_.front().is_counted) measurements_.key_to_effect.record(now_s - waiting_.front().due_s);
+    waiting_.pop_front();
+  }
+}
+
+std::uint64_t Probe::unanswered() const {
+  return static_cast<std::uint64_t>(std::count_if(waiting_.begin(), waiting_.end(), [](const Waiting& key) { return key.is_counted; }));
+}
+
+}  // namespace rink::loadgen

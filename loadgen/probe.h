@@ -1,0 +1,46 @@
+// What one bot measures: how old its updates are when they come, and how long its keys take to move its own bat.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "loadgen/histogram.h"
+
+namespace rink::loadgen {
+
+/// The histograms of all bots of a process, and the span of simulated time in which they count.
+struct Measurements {
+  double from_s = 0.0, until_s = 0.0;  ///< simulated time [s]; what falls outside is not counted
+  Histogram update_age, key_to_effect, send_lateness;
+  std::uint64_t keys_due = 0, keys_sent = 0, keys_unanswered = 0, late_sends = 0;
+
+  bool is_counted(double simulated_s) const { return simulated_s >= from_s && simulated_s < until_s; }
+};
+
+/// Follows the keys of one bot from the instant they were due to the first update of its own bat that has felt them. Times in seconds on one clock.
+class Probe {
+ public:
+  /// A send later than this is late: a sixth of a 60 Hz tick, twenty times the usual wake-up error.
+  static constexpr double late_s = 2.5e-3;
+
+  explicit Probe(Measurements& measurements) : measurements_(measurements) {}
+
+  /// A key due at `due_s` was sent at `sent_s`. `is_counted`: it falls into the measured span.
+  void key_sent(double due_s, double sent_s, bool is_counted);
+  /// A tick's batch of updates, due at `due_s`, was applied at `now_s`; the own bat has felt the first `felt` keys.
+  void batch_applied(double due_s, double now_s, std::uint32_t felt, bool is_counted);
+  /// Keys sent and counted that never showed an effect.
+  std::uint64_t unanswered() const;
+
+ private:
+  struct Waiting {
+    double due_s;
+    bool is_counted;
+  };
+
+  Measurements& measurements_;
+  std::deque<Waiting> waiting_;
+  std::uint32_t answered_ = 0;
+};
+
+}  // namespace rink::loadgen
