@@ -54,7 +54,7 @@ endfunction()
 # suites whose name holds Threaded carry the label threaded as well and are what the thread sanitizer runs.
 function(rink_tests name)
   cmake_parse_arguments(tests "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(NOT sources)
     return()
   endif()

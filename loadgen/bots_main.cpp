@@ -52,7 +52,7 @@ void add_options(CLI::App& app, Options& options) {
 
 std::vector<game::InputEvent> plan_of(const Options& options) {
   if (!options.plan.empty()) return game::read_key_log(options.plan).events;
-  return loadgen::input_events(loadgen::random_plan(options.seed, options.first + options.count, options.duration_s));
+  return loadgen::random_plan(options.seed, options.first + options.count, options.duration_s);
 }
 
 /// "127.0.0.1:4711" or "[::1]:4711" in two; throws std::invalid_argument.

@@ -58,7 +58,8 @@ void Client::look_around(const Position& centre) {
   const Extent& field = *mirror_.field();
   const double half_side = view_fraction_ < 1.0 ? 0.5 * std::sqrt(view_fraction_ * double(field.length) * double(field.width))
                                                 : 2.0 * double(std::max(field.length, field.width));
-  ambassador_.set_region(view_, {centre.x - half_side, centre.y - half_side, centre.x + half_side, centre.y + half_side});
+  view_bounds_ = {centre.x - half_side, centre.y - half_side, centre.x + half_side, centre.y + half_side};
+  ambassador_.set_region(view_, view_bounds_);
   ambassador_.commit_region_modifications(view_);
 }
 

@@ -43,6 +43,8 @@ class Client : public rti::FederateAmbassador {
   const std::string& trouble() const { return trouble_; }
   /// Why the RTI refused the join, if it did.
   std::optional<rti::Refusal> refusal() const { return refusal_; }
+  /// The interest region as last declared; it follows the bat by one round trip.
+  const im::Region& view() const { return view_bounds_; }
   /// The own bat as last heard of; null before the first update.
   const MirroredEntity* bat() const { return mirror_.find(bat_); }
   std::uint32_t keys_sent() const { return keys_sent_; }
@@ -74,6 +76,7 @@ class Client : public rti::FederateAmbassador {
   rti::RegionHandle view_;
   std::optional<SeatOffer> seat_;
   Position centre_;
+  im::Region view_bounds_;
   std::vector<std::byte> encoded_;
   bool is_called_ = false;  ///< to the start barrier
   std::uint32_t keys_sent_ = 0;

@@ -51,6 +51,8 @@ class Server : public rti::FederateAmbassador {
   /// Hands all that changed to the ambassador, stamped.
   void publish(const rti::Stamp& stamp);
 
+  /// The RTI object of an entity of the game.
+  rti::ObjectHandle object(EntityId entity) const { return publisher_->object(entity); }
   /// Every input applied so far, as stamped: a log that replays to the same state hash.
   const std::vector<InputEvent>& record() const { return record_; }
   const ServerCounters& counters() const { return counters_; }

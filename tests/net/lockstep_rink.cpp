@@ -1,0 +1,97 @@
+// Steps server, RTI and clients by turns; a round in which nothing is sent ends the exchange.
+#include "tests/net/lockstep_rink.h"
+
+namespace rink::game {
+namespace {
+
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme) {
+  rti::FederationSettings settings;
+  settings.federation = "rink";
+  settings.filter = scheme;
+  settings.filter_settings.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width};
+  return settings;
+}
+
+}  // namespace
+
+LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
+    : settings_(settings),
+      fom_(rti::Fom::load(RINK_SOURCE_DIR "/game/net/rink.fom.xml")),
+      model_(fom_),
+      hub_(network_),
+      server_endpoint_(network_),
+      execution_(fom_, federation_settings(scene, settings.scheme)),
+      host_(execution_) {
+  hub_.listen("rti");
+  host_.add(hub_);
+  server_ = std::make_unique<Server>(fom_, scene, settings.server, [this] { return now; });
+  server_link_ = std::make_unique<rti::FederateLink>(server_->ambassador(), server_endpoint_, server_endpoint_.connect("rti"));
+  server_links_.add(*server_link_);
+  settle();
+  for (std::uint32_t k = 0; k < settings.clients; ++k) add_client("bat-" + std::to_string(k));
+}
+
+Client& LockstepRink::add_client(const std::string& name) {
+  auto player = std::make_unique<Player>(network_);
+  const ClientSettings settings{.federation = "rink", .name = name, .view_fraction = settings_.view_fraction};
+  player->client = std::make_unique<Client>(fom_, model_, settings);
+  player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint, player->endpoint.connect("rti"));
+  player->links.add(*player->link);
+  clients_.push_back(std::move(player));
+  return *clients_.back()->client;
+}
+
+void LockstepRink::kill(std::size_t index) {
+  Player& player = *clients_[index];
+  player.is_dead = true;
+  player.endpoint.close(player.link->connection());
+}
+
+void LockstepRink::settle() {
+  constexpr int rounds = 6;  // a join takes five: join, joined, seat, region, state
+  for (int round = 0; round < rounds; ++round) {
+    host_.poll({});
+    host_.flush();
+    server_endpoint_.poll({}, server_links_);
+    server_link_->flush(now);
+    for (const std::unique_ptr<Player>& player : clients_) {
+      player->endpoint.poll({}, player->links);
+      if (player->is_dead) continue;
+      player->client->follow_bat();
+      player->link->flush(now);
+    }
+  }
+}
+
+void LockstepRink::start() {
+  for (int round = 0; round < 4; ++round) {
+    settle();
+    send_tick(0.0);
+    settle();
+  }
+  server_->call_to_start();
+  settle();
+}
+
+void LockstepRink::send_tick(double time) {
+  server_->publish({.time = time, .tag = static_cast<std::uint64_t>(1e9 * (time + 1.0))});
+  server_link_->flush(now);
+  host_.poll({});
+  host_.match();
+  host_.flush();
+}
+
+void LockstepRink::tick() {
+  settle();
+  const double time = static_cast<double>(++tick_number) / settings_.rate_hz;
+  now = time;
+  server_->simulate(time);
+  send_tick(time);
+  settle();
+}
+
+void LockstepRink::run(double seconds) {
+  for (const double until = now + seconds; now + 0.5 / settings_.rate_hz < until;) tick();
+}
+
+}  // namespace rink::game

@@ -1,0 +1,77 @@
+// A server and any number of clients in one process, stepped tick by tick under a clock of the test's own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/net/client.h"
+#include "game/net/server.h"
+#include "rti/federation_execution.h"
+#include "rti/transport/federate_link.h"
+#include "rti/transport/federation_host.h"
+#include "rti/transport/in_process.h"
+
+namespace rink::game {
+
+/// What a lockstep rink is made of; everything but the scene has a default that suits most tests.
+struct LockstepSettings {
+  std::string scheme = "region";
+  std::uint32_t clients = 2;
+  double rate_hz = 30.0;
+  double view_fraction = 0.2;
+  ServerSettings server;
+};
+
+/// The whole path of the real commands (server, RTI, filter, transport, clients) without sockets or real time.
+class LockstepRink {
+ public:
+  LockstepRink(const Scene& scene, const LockstepSettings& settings);
+
+  /// Exchanges messages until all is quiet; no simulated time passes.
+  void settle();
+  /// Joins everybody and passes the start barrier.
+  void start();
+  /// Simulates one tick, publishes, filters, delivers.
+  void tick();
+  void run(double seconds);
+
+  Client& add_client(const std::string& name);
+  /// Cuts client `index` off without a word, as kill -9 does.
+  void kill(std::size_t index);
+
+  Server& server() { return *server_; }
+  Client& client(std::size_t index) { return *clients_[index]->client; }
+  std::size_t client_count() const { return clients_.size(); }
+  rti::FederationExecution& execution() { return execution_; }
+  /// Simulated time of the next key: tests set it between two ticks.
+  double now = 0.0;
+  std::uint64_t tick_number = 0;
+
+ private:
+  struct Player {
+    explicit Player(rti::InProcessNetwork& network) : endpoint(network) {}
+    rti::InProcessEndpoint endpoint;
+    std::unique_ptr<Client> client;
+    std::unique_ptr<rti::FederateLink> link;
+    rti::FederateLinks links;
+    bool is_dead = false;
+  };
+  void send_tick(double time);
+
+  LockstepSettings settings_;
+  const rti::Fom fom_;
+  const ObjectModel model_;
+  rti::InProcessNetwork network_;
+  rti::InProcessEndpoint hub_, server_endpoint_;
+  rti::FederationExecution execution_;
+  rti::FederationHost host_;
+  std::unique_ptr<Server> server_;
+  std::unique_ptr<rti::FederateLink> server_link_;
+  rti::FederateLinks server_links_;
+  std::vector<std::unique_ptr<Player>> clients_;
+  bool is_started_ = false;
+};
+
+}  // namespace rink::game

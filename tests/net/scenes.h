@@ -1,0 +1,19 @@
+// The scenes and keys that the tests of server and clients share.
+#pragma once
+
+#include "game/model/scene_file.h"
+#include "loadgen/plan.h"
+
+namespace rink::game {
+
+/// Twelve bats and their share of the crowd's pucks, at the crowd's density.
+inline Scene small_crowd() { return scaled_to_bats(load_scene(RINK_SOURCE_DIR "/scenes/crowd.toml"), 12); }
+
+inline Scene match() { return load_scene(RINK_SOURCE_DIR "/scenes/match.toml"); }
+
+/// Keys for every bat of `scene`.
+inline std::vector<InputEvent> keys_for(const Scene& scene, std::uint64_t seed, double seconds) {
+  return loadgen::random_plan(seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), seconds);
+}
+
+}  // namespace rink::game

@@ -1,0 +1,125 @@
+// The server federate: seats, stamped keys, replays, and the same game whatever carries it.
+#include "game/net/server.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/net/lockstep_rink.h"
+#include "tests/net/scenes.h"
+
+namespace rink::game {
+namespace {
+
+/// Plays `seconds` of `scene` with the keys of `log` and returns the final state's hash.
+std::uint64_t hash_after(const Scene& scene, const std::vector<InputEvent>& log, const std::string& scheme, double rate_hz, double seconds) {
+  LockstepRink rink(scene, {.scheme = scheme, .clients = 3, .rate_hz = rate_hz, .server = {.replay = log}});
+  rink.start();
+  rink.run(seconds);
+  EXPECT_DOUBLE_EQ(rink.server().game().now(), seconds);
+  return rink.server().game().hash();
+}
+
+TEST(Server, EndsInTheSameStateUnderEveryFilterAndOutputRate) {
+  const Scene scene = small_crowd();
+  const std::vector<InputEvent> log = keys_for(scene, 11, 2.0);
+  Game alone(scene);
+  for (const InputEvent& event : log) alone.submit(event);
+  alone.advance(2.0);
+  for (const char* scheme : {"none", "grid", "region"})
+    for (const double rate_hz : {20.0, 60.0}) EXPECT_EQ(hash_after(scene, log, scheme, rate_hz, 2.0), alone.hash()) << scheme << " at " << rate_hz << " Hz";
+}
+
+TEST(Server, RecordsALogThatReplaysLiveKeysToTheSameState) {
+  const Scene scene = small_crowd();
+  LockstepRink live(scene, {.clients = 4});
+  live.start();
+  for (int tick = 0; tick < 60; ++tick) {
+    live.now += 0.0071;  // keys arrive between two ticks
+    Client& client = live.client(static_cast<std::size_t>(tick % 4));
+    tick / 4 % 2 == 0 ? client.press(Key::right) : client.release(Key::right);
+    live.tick();
+  }
+  EXPECT_EQ(live.server().counters().keys_received, 60u);
+  EXPECT_EQ(live.server().counters().keys_applied, 60u);
+  EXPECT_EQ(hash_after(scene, live.server().record(), "none", 30.0, 2.0), live.server().game().hash());
+}
+
+TEST(Server, StampsAKeyWithTheInstantOfItsArrival) {
+  LockstepRink rink(match(), {.clients = 1});
+  rink.start();
+  rink.tick();
+  rink.now += 0.013;
+  rink.client(0).press(Key::up);
+  const double arrival = rink.now;
+  rink.tick();
+  ASSERT_EQ(rink.server().record().size(), 1u);
+  EXPECT_EQ(rink.server().record()[0], (InputEvent{.time = arrival, .player = 0, .kind = InputKind::key_down, .key = Key::up}));
+}
+
+TEST(Server, GivesABatToTheFederateThatBearsItsNameAndTheFirstFreeOneToOthers) {
+  LockstepRink rink(small_crowd(), {.clients = 0});
+  Client& named = rink.add_client("bat-5");
+  Client& stranger = rink.add_client("Ada");
+  rink.start();
+  const Game& game = rink.server().game();
+  ASSERT_NE(named.bat(), nullptr);
+  ASSERT_NE(stranger.bat(), nullptr);
+  EXPECT_EQ(named.bat()->object, rink.server().object(*game.bat(5)));
+  EXPECT_EQ(stranger.bat()->object, rink.server().object(*game.bat(0)));
+}
+
+TEST(Server, TellsAPlayerTooManyThatNoBatIsFree) {
+  LockstepRink rink(match(), {.clients = 2});
+  Client& third = rink.add_client("third");
+  rink.start();
+  EXPECT_EQ(third.state(), Client::State::refused);
+  EXPECT_EQ(third.trouble(), "no bat is free");
+  EXPECT_EQ(rink.client(1).state(), Client::State::playing);
+}
+
+TEST(Server, RemovesTheBatOfAKilledClientEverywhereAndGivesItBackToTheNext) {
+  LockstepRink rink(match(), {.clients = 2, .view_fraction = 1.0});
+  rink.start();
+  rink.run(0.2);
+  const rti::ObjectHandle bat = rink.client(1).bat()->object;
+  ASSERT_NE(rink.client(0).mirror().find(bat), nullptr);
+  rink.kill(1);
+  rink.tick();
+  rink.tick();
+  EXPECT_FALSE(rink.server().game().bat(1));
+  EXPECT_EQ(rink.client(0).mirror().find(bat), nullptr);
+  EXPECT_EQ(rink.server().counters().federates_lost, 1u);
+  Client& next = rink.add_client("next");
+  rink.run(0.3);
+  EXPECT_TRUE(rink.server().game().bat(1));
+  EXPECT_EQ(next.state(), Client::State::playing);
+}
+
+TEST(Server, StepsInSynchronousModeWhenAllPlayersHaveSaidUpdate) {
+  LockstepRink rink(match(), {.clients = 2});
+  rink.start();
+  EXPECT_FALSE(rink.server().all_turns_done());
+  rink.client(0).end_turn();
+  rink.client(0).end_turn();
+  rink.settle();
+  EXPECT_FALSE(rink.server().all_turns_done());
+  rink.client(1).end_turn();
+  rink.settle();
+  EXPECT_TRUE(rink.server().all_turns_done());
+  rink.tick();
+  EXPECT_FALSE(rink.server().all_turns_done());
+}
+
+TEST(Server, CountsAKeyThatDoesNotExistAndPlaysOn) {
+  LockstepRink rink(match(), {.clients = 1});
+  rink.start();
+  const std::byte nonsense[] = {std::byte{'?'}};
+  const ObjectModel model(rink.client(0).ambassador().fom());
+  rink.client(0).ambassador().send_interaction(model.key_down, nonsense, {});
+  rink.tick();
+  EXPECT_EQ(rink.server().counters().keys_refused, 1u);
+  EXPECT_TRUE(rink.server().record().empty());
+  EXPECT_EQ(rink.client(0).state(), Client::State::playing);
+}
+
+}  // namespace
+}  // namespace rink::game
