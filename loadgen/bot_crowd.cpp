@@ -64,13 +64,14 @@ void BotCrowd::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
 
 void BotCrowd::after_receiving(Bot& bot) {
   const rti::Stamp& newest = bot.client.mirror().newest();
-  if (bot.client.state() == game::Client::State::playing && newest.tag != bot.seen_tag) {
+  if (bot.client.state() == game::Client::State::playing && newest.tag != 0 && newest.tag != bot.seen_tag) {
     bot.seen_tag = newest.tag;
     const double due = 1e-9 * static_cast<double>(newest.tag);
     if (!origin_s_) origin_s_ = due - newest.time;
     const game::MirroredEntity* bat = bot.client.bat();
     bot.probe.batch_applied(due, now_s_(), bat == nullptr ? 0 : bat->input.count, measurements_.is_counted(newest.time));
   }
+  press_due_keys();  // between two bots' batches too: with many bots a tick's batches take longer than a key may be late
   bot.client.follow_bat();
   const std::optional<rti::Refusal> refusal = bot.client.refusal();
   if (bot.client.state() == game::Client::State::refused)
@@ -105,9 +106,8 @@ void BotCrowd::run_once() {
   if (origin_s_ && next_key_ < plan_.size()) wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
   transport_.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)), *this);
   advance_clocks();
-  if (!origin_s_) return;
   press_due_keys();
-  measure_span();
+  if (origin_s_) measure_span();
 }
 
 /// Heartbeats, four times a second: often enough for them, and nothing for the rest.
@@ -123,6 +123,7 @@ void BotCrowd::advance_clocks() {
 }
 
 void BotCrowd::press_due_keys() {
+  if (!origin_s_) return;
   for (; next_key_ < plan_.size() && due_s(plan_[next_key_].time) <= now_s_(); ++next_key_) {
     const DueKey& key = plan_[next_key_];
     const bool is_counted = measurements_.is_counted(key.time);

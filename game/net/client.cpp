@@ -12,9 +12,7 @@ namespace rink::game {
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
     : model_(model), view_fraction_(settings.view_fraction), mirror_(model), ambassador_(fom, *this) {
   ambassador_.join(settings.federation, settings.name, player_federate_type);
-}
-
-void Client::joined(rti::FederateHandle) {
+  // In one frame with the join, so that the server cannot offer a seat before we listen.
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.seat);
   ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent});
@@ -38,6 +36,7 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
   if (offer.bat == SeatOffer::no_bat) {
     state_ = State::refused;
     trouble_ = "no bat is free";
+    ambassador_.resign();
     return;
   }
   seat_ = offer;

@@ -51,7 +51,6 @@ class Client : public rti::FederateAmbassador {
   const Mirror& mirror() const { return mirror_; }
 
  private:
-  void joined(rti::FederateHandle federate) override;
   void join_refused(rti::Refusal refusal, std::string_view why) override;
   void connection_lost(std::string_view why) override;
   void announce_synchronization_point(std::string_view label) override;

@@ -30,6 +30,9 @@ using Json = nlohmann::ordered_json;
 
 volatile std::sig_atomic_t is_interrupted = 0;
 
+/// The due instant in stamps from before the start, when nothing is due yet.
+constexpr double not_started_s = 0.0;
+
 struct Options {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, pace = "realtime";
   std::uint16_t port = 4711;
@@ -81,6 +84,7 @@ class Serving {
         host_(execution_),
         server_(fom, scene, {.federation = federation, .policy = options.policy, .replay = std::move(replay)}, [this] { return simulated_now(); }),
         link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
+    execution_.advance_clock(now_s());  // before anybody connects: silence counts from then on
     links_.add(link_);
     host_.add(hub_);
     host_.add(tcp_);
@@ -96,6 +100,8 @@ class Serving {
 
   const game::Server& server() const { return server_; }
   Json report() const;
+  /// Adds what the connections carried from first to last, as counted here and by the kernel.
+  void add_totals(Json& report) const;
 
  private:
   static rti::FederationSettings federation_settings(const Options& options, const game::Scene& scene, const std::string& federation);
@@ -145,14 +151,14 @@ bool Serving::start() {
   while (!is_interrupted && (!server_.is_joined() || server_.player_count() < options_.clients)) {
     if (now_s() > give_up_s) return false;
     exchange(0.02);
-    if (server_.is_joined()) send_tick(0.0, now_s(), uncounted);
+    if (server_.is_joined()) send_tick(0.0, not_started_s, uncounted);
     host_.advance_clock(now_s());
   }
   server_.call_to_start();
   while (!is_interrupted && !server_.is_started()) {
     if (now_s() > give_up_s) return false;
     exchange(0.005);
-    send_tick(0.0, now_s(), uncounted);
+    send_tick(0.0, not_started_s, uncounted);
   }
   return true;
 }
@@ -217,7 +223,6 @@ void Serving::end() {
 
 Json Serving::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
-  const rti::TransportCounters total = tcp_.totals();
   const rti::FederationCounters& begin = costs_.begin;
   const rti::FederationCounters& end = costs_.end;
   char hash[17];
@@ -249,10 +254,6 @@ Json Serving::report() const {
           {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
           {"scope_entries", end.scope_entries - begin.scope_entries},
           {"scope_exits", end.scope_exits - begin.scope_exits},
-          {"total_bytes_sent", total.bytes_sent},
-          {"total_bytes_received", total.bytes_received},
-          {"kernel_bytes_sent", total.kernel_bytes_sent.value_or(0)},
-          {"kernel_bytes_received", total.kernel_bytes_received.value_or(0)},
           {"lost_federates", server_.counters().federates_lost},
           {"dropped_connections", dropped + host_.closed_by_full_queue()},
           {"keys_received", server_.counters().keys_received},
@@ -260,6 +261,14 @@ Json Serving::report() const {
           {"keys_refused", server_.counters().keys_refused},
           {"valid", why_invalid.empty()},
           {"why_invalid", why_invalid}};
+}
+
+void Serving::add_totals(Json& report) const {
+  const rti::TransportCounters total = tcp_.totals();
+  report["total_bytes_sent"] = total.bytes_sent;
+  report["total_bytes_received"] = total.bytes_received;
+  report["kernel_bytes_sent"] = total.kernel_bytes_sent.value_or(0);
+  report["kernel_bytes_received"] = total.kernel_bytes_received.value_or(0);
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -320,8 +329,10 @@ game::ExitStatus serve(Options& options) {
   std::fflush(stdout);
   const bool is_complete = serving.start();
   if (is_complete) serving.run();
+  Json report = serving.report();
   serving.end();
-  if (!options.report.empty()) write_file(options.report, serving.report().dump(2));
+  serving.add_totals(report);
+  if (!options.report.empty()) write_file(options.report, report.dump(2));
   if (!options.record.empty()) {
     game::KeyLog log = game::key_log_for(scene);
     log.scene = options.scene;

@@ -21,7 +21,7 @@ struct LockstepSettings {
   std::uint32_t clients = 2;
   double rate_hz = 30.0;
   double view_fraction = 0.2;
-  ServerSettings server;
+  ServerSettings server = {};
 };
 
 /// The whole path of the real commands (server, RTI, filter, transport, clients) without sockets or real time.
