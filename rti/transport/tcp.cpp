@@ -58,6 +58,7 @@ class TcpTransport::Core {
   void send(ConnectionId connection, std::span<const Bytes> parts);
   void close(ConnectionId connection);
   TransportCounters counters(ConnectionId connection) const;
+  TransportCounters totals() const;
 
  private:
   struct Peer {
@@ -378,6 +379,22 @@ ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t por
 void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
 void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
 void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
+TransportCounters TcpTransport::Core::totals() const {
+  TransportCounters sum{.kernel_bytes_sent = 0, .kernel_bytes_received = 0};
+  for (ConnectionId connection = 0; connection < last_counters_.size(); ++connection) {
+    const TransportCounters one = counters(connection);
+    sum.bytes_sent += one.bytes_sent;
+    sum.bytes_received += one.bytes_received;
+    sum.writes += one.writes;
+    sum.segments_sent += one.segments_sent;
+    sum.queued_bytes += one.queued_bytes;
+    *sum.kernel_bytes_sent += one.kernel_bytes_sent.value_or(one.bytes_sent);
+    *sum.kernel_bytes_received += one.kernel_bytes_received.value_or(one.bytes_received);
+  }
+  return sum;
+}
+
 TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
+TransportCounters TcpTransport::totals() const { return core_->totals(); }
 
 }  // namespace rink::rti

@@ -32,6 +32,8 @@ class TcpTransport final : public Transport {
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
   TransportCounters counters(ConnectionId connection) const override;
+  /// Sum over all connections that ever were; where the kernel was not asked or could not tell, our own count stands in for its.
+  TransportCounters totals() const;
 
  private:
   class Core;
