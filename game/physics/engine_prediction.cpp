@@ -144,8 +144,9 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
     offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
-  // Warped time never runs ahead of real time, so the best event so far limits it as well.
-  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, slots_[body].impact_time - time)) offer(body, real_time(time, *wait), other);
+  // Warped time never runs ahead of real time, so the best event so far limits it as well; the slack keeps those that rounding makes simultaneous.
+  const double limit = slots_[body].impact_time * (1.0 + 4e-15) - time;
+  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit)) offer(body, real_time(time, *wait), other);
 }
 
 void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {

@@ -178,14 +178,15 @@ TEST(Collapse, ThreePucksOfAnyRestitutionSeparateInTime) {
 }
 
 TEST(Determinism, CellSizeAndStopsOnTheWayNeverChangeABit) {
-  for (const double e : {0.0, 0.5, 0.9, 1.0}) {
+  for (int scene = 0; scene < 12; ++scene) {
+    const double e = std::vector{0.0, 0.0, 0.5, 0.0, 0.9, 1.0}[static_cast<std::size_t>(scene % 6)];
     std::uint64_t expected = 0;
     for (int variant = 0; variant < 5; ++variant) {
-      SCOPED_TRACE(testing::Message() << "restitution " << e << " variant " << variant);
+      SCOPED_TRACE(testing::Message() << "scene " << scene << " restitution " << e << " variant " << variant);
       WorldSpec spec = rink_of(4, 2, e, 0.2, 1.0);
       spec.cell_size = variant == 1 ? 0.6 : variant == 2 ? 5.0 : 0.0;
       World world(spec);
-      std::mt19937_64 random(11), stops(static_cast<std::uint64_t>(variant));
+      std::mt19937_64 random(static_cast<std::uint64_t>(11 + scene)), stops(static_cast<std::uint64_t>(variant));
       scatter_posts(world, random, 2);
       const std::vector<BodyId> bats = scatter_bats(world, random, 6);
       scatter_pucks(world, random, 40, 0.1, 1.0);
@@ -215,6 +216,62 @@ void soak(std::uint64_t seed, double restitution, double duration) {
     ASSERT_LT(world.counters().events() - before, 0.1 * 1e4 * world.body_count()) << t;
     before = world.counters().events();
   }
+}
+
+/// Goals, the halfway line, and whoever scores is put back where there is room.
+void soak_with_goals(std::uint64_t seed, double restitution) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed << " restitution " << restitution);
+  WorldSpec spec = rink_of(4, 2, restitution, 0.2, 1.0);
+  spec.field.goal_width = 0.6;
+  spec.field.bats_keep_to_half = true;
+  World world(spec);
+  std::mt19937_64 random(seed);
+  std::vector<BodyId> bats;
+  for (int i = 0; i < 6; ++i) {
+    BatSpec bat;
+    bat.position = {i % 2 == 0 ? 0.5 : 3.5, 0.3 + 0.5 * (i / 2)};
+    bat.half_extent = {0.05, 0.12};
+    bat.mass = 2.0;
+    bat.half = i % 2 == 0 ? Half::left : Half::right;
+    bats.push_back(world.add(bat));
+  }
+  const std::vector<BodyId> pucks = scatter_pucks(world, random, 30, 0.1, 1.0);
+  for (double t = 0.02; t < 6.0; t += 0.02) {
+    while (const auto goal = world.advance(t)) {
+      ASSERT_TRUE(std::abs(world.position(goal->puck).y() - 1.0) < 0.3 + 1e-9);
+      const Vector2 spot(uniform(random, 1.0, 3.0), uniform(random, 0.1, 1.9));
+      if (world.is_free(spot, 0.04)) world.place(goal->puck, spot, {uniform(random, -2, 2), uniform(random, -2, 2)});
+    }
+    const BodyId bat = bats[random() % bats.size()];
+    const double x = static_cast<double>(random() % 3) - 1.0, y = static_cast<double>(random() % 3) - 1.0;
+    world.set_thrust(bat, {6.0 * x, 6.0 * y});
+    ASSERT_LT(world.max_overlap(), 1e-9) << t;
+    for (const BodyId puck : pucks) ASSERT_TRUE(world.position(puck).x() > -1e-9 && world.position(puck).x() < 4.0 + 1e-9) << t;
+    for (std::size_t i = 0; i < bats.size(); ++i) ASSERT_TRUE(i % 2 == 0 ? world.position(bats[i]).x() < 1.95 + 1e-9 : world.position(bats[i]).x() > 2.05 - 1e-9);
+  }
+  EXPECT_GT(world.counters().goals, 0u);
+  EXPECT_LT(world.counters().events(), 6u * 36u * 2000u);
+}
+
+TEST(Crowd, GoalsAndHalfwayLineHoldUnderRandomKeys) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const double restitution : {0.0, 0.5, 1.0}) soak_with_goals(seed, restitution);
+}
+
+TEST(Crowd, RemovingAPressingBatFreesWhatItHeld) {
+  World world(rink_of(4, 2, 0.5, 0.2, 1.0));
+  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(puck_at(0.5, 1));
+  world.set_thrust(bat, {-6, 0});
+  world.advance(5.0);
+  EXPECT_TRUE(world.is_held(puck));
+  world.remove(bat);
+  EXPECT_FALSE(world.is_held(puck));
+  EXPECT_FALSE(world.is_in_play(bat));
+  PuckSpec striker = puck_at(1.5, 1);
+  striker.velocity = {-1, 0};
+  world.add(striker);
+  world.advance(15.0);
+  EXPECT_GT(world.counters().disc_impacts, 0u);
 }
 
 TEST(Crowd, RandomKeysNeverOverlapOrStopTime) {
