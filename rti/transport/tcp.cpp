@@ -91,6 +91,7 @@ class TcpTransport::Core {
   std::size_t write(Peer& peer, std::span<const Bytes> parts, bool& is_broken);
   void end(Peer& peer, CloseReason reason, const std::string& detail);
   void report_closed();
+  void wait(std::chrono::nanoseconds longest_wait);
 
   TcpSettings settings_;
   asio::io_context context_{1};
@@ -102,7 +103,7 @@ class TcpTransport::Core {
   std::vector<Closed> closed_, reporting_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling
-  std::uint64_t reported_ = 0;                    ///< events told to listeners so far
+  std::uint64_t reported_ = 0, before_ = 0;       ///< events told to listeners so far, and when this poll began
 };
 
 tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
@@ -337,24 +338,35 @@ void TcpTransport::Core::report_closed() {
 
 void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
-  const std::uint64_t before = reported_;
+  before_ = reported_;
   context_.restart();
   context_.poll();
   report_closed();
-  if (reported_ == before && longest_wait.count() > 0) {
-    // The timer is the kernel's timerfd: exact to its slack, where run_one_for would round up to whole milliseconds.
+  if (reported_ == before_ && longest_wait.count() > 0) wait(longest_wait);
+  listener_ = nullptr;
+}
+
+void TcpTransport::Core::wait(std::chrono::nanoseconds longest_wait) {
+  // Asio waits in whole milliseconds unless a timer is set, which is the kernel's timerfd and exact. Setting one costs two system calls, so only
+  // the last milliseconds are waited for that way; most waits end by an event before.
+  using std::chrono::milliseconds;
+  timer_.expires_after(longest_wait);
+  const auto coarse = std::chrono::duration_cast<milliseconds>(longest_wait) - milliseconds(1);
+  if (coarse.count() > 0) {
+    context_.run_one_for(coarse);
+    report_closed();
+  }
+  if (reported_ == before_) {
     is_timer_due_ = false;
-    timer_.expires_after(longest_wait);
     timer_.async_wait([this](const asio::error_code& error) { is_timer_due_ = !error; });
-    while (reported_ == before && !is_timer_due_) {
+    while (reported_ == before_ && !is_timer_due_) {
       context_.run_one();
       report_closed();
     }
     timer_.cancel();
-    context_.poll();
-    report_closed();
   }
-  listener_ = nullptr;
+  context_.poll();  // what else came meanwhile
+  report_closed();
 }
 
 TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {

@@ -12,14 +12,13 @@ namespace {
 /// Random fields from one seed.
 struct Dice {
   std::mt19937_64 random;
-  std::string words;
+  std::deque<std::string> words;  ///< a deque: views into earlier ones stay valid
   std::vector<std::byte> bytes;
 
   template <class Number>
   Number number() { return static_cast<Number>(random()); }
   std::string_view text() {
-    words.assign(random() % 256, static_cast<char>('a' + random() % 26));
-    return words;
+    return words.emplace_back(random() % 256, static_cast<char>('a' + random() % 26));
   }
   Bytes some(std::size_t size) {
     bytes.resize(size);

@@ -204,15 +204,17 @@ TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
   Tally tally;
   transport.listen("127.0.0.1", 0);
   std::vector<double> late_ms;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 100; ++i) {
+    const double due_ms = i % 2 == 0 ? 0.5 : 3.3;
     const auto start = std::chrono::steady_clock::now();
-    transport.poll(500us, tally);
+    transport.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(due_ms * 1e6)), tally);
     const double waited_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    EXPECT_GE(waited_ms, 0.5);
-    late_ms.push_back(waited_ms - 0.5);
+    EXPECT_GE(waited_ms, due_ms);
+    late_ms.push_back(waited_ms - due_ms);
   }
-  std::nth_element(late_ms.begin(), late_ms.begin() + 100, late_ms.end());
-  EXPECT_LT(late_ms[100], 5.0) << "the median, on a machine that may be busy";
+  std::nth_element(late_ms.begin(), late_ms.begin() + 50, late_ms.end());
+  RecordProperty("median_lateness_us", static_cast<int>(1000.0 * late_ms[50]));
+  EXPECT_LT(late_ms[50], 5.0) << "the median, on a machine that may be busy";
 }
 
 TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
