@@ -117,8 +117,6 @@ bool EventQueue::refill(double until) {
 }
 
 std::uint32_t EventQueue::first(double until) {
-  const auto last = static_cast<std::int64_t>(std::min(until * inverse_width_, number_max));
-  (void)last;
   for (;;) {
     if (near_count_ == 0 || current_ >= horizon_) {
       if (!refill(until)) return none;

@@ -1,4 +1,6 @@
 // The classic table-free algorithms (Sun Microsystems' fdlibm, 1993: s_expm1.c, s_log1p.c), in plain IEEE double arithmetic.
+// Constants and method: Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy, modify, and distribute this software is freely
+// granted, provided that this notice is preserved.
 #include "game/physics/exponential.h"
 
 #include <bit>
@@ -16,7 +18,7 @@ constexpr double tiny = 0x1p-54;
 
 double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
-/// x^2/2 - x^3/(...) of the rational form exp(x) = 1 + x + x e', on |x| <= ln2/2.
+/// c(x) such that expm1(x) = x - (x c(x) - x^2/2), on |x| <= ln2/2.
 double expm1_correction(double x) {
   const double half = 0.5 * x, square = x * half;
   const double r = 1.0 + square * (-3.33333333333331316428e-02 +
