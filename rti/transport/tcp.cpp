@@ -1,28 +1,16 @@
-// TCP connections on Asio's reactor: non-blocking sockets, one gathered write per send, a bounded queue for slow readers.
-#include "rti/transport/tcp.h"
-
+// TCP connections on Asio's reactor: how they come about, wait and end.
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/uio.h>
 
-#include <algorithm>
-#include <array>
-#include <asio.hpp>
 #include <cerrno>
-#include <chrono>
-#include <memory>
-#include <vector>
 
 #include "rti/transport/kernel_counters.h"
+#include "rti/transport/tcp_core.h"
 
 namespace rink::rti {
 
 namespace {
 
 using asio::ip::tcp;
-
-constexpr std::size_t segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
-constexpr std::size_t part_max = 256;       ///< of one write; more are taken in turns
 
 [[noreturn]] void fail(const asio::error_code& error, const std::string& what) {
   using Kind = TransportError::Kind;
@@ -40,71 +28,7 @@ std::string place(const std::string& address, std::uint16_t port) {
   return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
 }
 
-CloseReason reason_of(const asio::error_code& error) {
-  if (error == asio::error::eof || error == asio::error::connection_reset || error == asio::error::broken_pipe) return CloseReason::closed_by_peer;
-  if (error == asio::error::connection_refused) return CloseReason::refused;
-  return CloseReason::failed;
-}
-
 }  // namespace
-
-class TcpTransport::Core {
- public:
-  explicit Core(const TcpSettings& settings) : settings_(settings), timer_(context_), read_buffer_(settings.read_buffer) {}
-
-  std::uint16_t listen(const std::string& address, std::uint16_t port);
-  ConnectionId connect(const std::string& address, std::uint16_t port);
-  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
-  void send(ConnectionId connection, std::span<const Bytes> parts);
-  void close(ConnectionId connection);
-  TransportCounters counters(ConnectionId connection) const;
-  TransportCounters totals() const;
-
- private:
-  struct Peer {
-    Peer(asio::io_context& context, ConnectionId id) : socket(context), id(id) {}
-    tcp::socket socket;
-    ConnectionId id;
-    std::string place;                  ///< whom we connect to
-    bool is_open = false;               ///< connected; may be sent to
-    bool is_leaving = false;            ///< its end is in `closed_`, waiting to be reported
-    bool is_writing = false;            ///< waits for room in the kernel's buffer
-    std::vector<std::byte> queue;       ///< from `queue_from` on: accepted, not yet taken
-    std::size_t queue_from = 0;
-    TransportCounters counters;
-  };
-  struct Closed {
-    ConnectionId connection;
-    CloseReason reason;
-    std::string detail;
-  };
-  tcp::endpoint resolve(const std::string& address, std::uint16_t port);
-  Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
-  Peer& add();
-  void accept(tcp::acceptor& acceptor);
-  void accept_later(tcp::acceptor& acceptor);
-  void opened(Peer& peer);
-  void await_bytes(Peer& peer);
-  void read(Peer& peer);
-  void await_room(Peer& peer);
-  void drain(Peer& peer);
-  std::size_t write(Peer& peer, std::span<const Bytes> parts, bool& is_broken);
-  void end(Peer& peer, CloseReason reason, const std::string& detail);
-  void report_closed();
-  void wait(std::chrono::nanoseconds longest_wait);
-
-  TcpSettings settings_;
-  asio::io_context context_{1};
-  asio::steady_timer timer_;
-  bool is_timer_due_ = false;
-  std::vector<std::unique_ptr<tcp::acceptor>> acceptors_;
-  std::vector<std::unique_ptr<Peer>> peers_;      ///< by connection; null once closed
-  std::vector<TransportCounters> last_counters_;  ///< of closed ones, by connection
-  std::vector<Closed> closed_, reporting_;
-  std::vector<std::byte> read_buffer_;
-  TransportListener* listener_ = nullptr;         ///< while polling
-  std::uint64_t reported_ = 0, before_ = 0;       ///< events told to listeners so far, and when this poll began
-};
 
 tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
   asio::error_code error;
@@ -141,7 +65,7 @@ ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16
   peer.socket.async_connect(endpoint, [this, id = peer.id](const asio::error_code& failure) {
     Peer* connected = find(id);
     if (connected == nullptr || connected->is_leaving) return;
-    if (failure) return end(*connected, reason_of(failure), "can't connect to " + connected->place + ": " + failure.message());
+    if (failure) return end(*connected, close_reason_of(failure), "can't connect to " + connected->place + ": " + failure.message());
     opened(*connected);
   });
   return peer.id;
@@ -188,127 +112,6 @@ void TcpTransport::Core::opened(Peer& peer) {
   const ConnectionId id = peer.id;
   listener_->on_open(id);
   if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
-}
-
-void TcpTransport::Core::await_bytes(Peer& peer) {
-  peer.socket.async_wait(tcp::socket::wait_read, [this, id = peer.id](const asio::error_code& error) {
-    Peer* ready = find(id);
-    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
-    if (error) return end(*ready, reason_of(error), error.message());
-    read(*ready);
-  });
-}
-
-void TcpTransport::Core::read(Peer& peer) {
-  const ConnectionId id = peer.id;
-  const ssize_t size = ::recv(peer.socket.native_handle(), read_buffer_.data(), read_buffer_.size(), 0);
-  if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
-  if (size < 0) {
-    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return await_bytes(peer);
-    const asio::error_code error(errno, asio::system_category());
-    return end(peer, reason_of(error), error.message());
-  }
-  peer.counters.bytes_received += static_cast<std::uint64_t>(size);
-  ++reported_;
-  listener_->on_bytes(id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
-  if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
-}
-
-std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
-  std::array<iovec, part_max> vectors;
-  std::size_t taken = 0;
-  while (!parts.empty()) {
-    std::size_t count = 0, size = 0;
-    for (; count < std::min(parts.size(), part_max); ++count) {
-      vectors[count] = {const_cast<std::byte*>(parts[count].data()), parts[count].size()};  // sendmsg only reads
-      size += parts[count].size();
-    }
-    parts = parts.subspan(count);
-    msghdr message{};
-    message.msg_iov = vectors.data();
-    message.msg_iovlen = count;
-    ssize_t sent = 0;
-    do sent = ::sendmsg(peer.socket.native_handle(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
-    while (sent < 0 && errno == EINTR);
-    if (sent < 0) {
-      is_broken = errno != EAGAIN && errno != EWOULDBLOCK;
-      break;
-    }
-    taken += static_cast<std::size_t>(sent);
-    if (static_cast<std::size_t>(sent) < size) break;
-  }
-  peer.counters.bytes_sent += taken;
-  return taken;
-}
-
-void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
-  Peer* peer = find(connection);
-  if (peer == nullptr || peer->is_leaving) return;
-  std::size_t size = 0;
-  for (const Bytes part : parts) size += part.size();
-  if (size == 0) return;
-  ++peer->counters.writes;
-  peer->counters.segments_sent += (size + segment_size - 1) / segment_size;
-  bool is_broken = false;
-  std::size_t taken = 0;
-  if (peer->is_open && peer->queue.size() == peer->queue_from) taken = write(*peer, parts, is_broken);
-  if (is_broken) return end(*peer, CloseReason::closed_by_peer, "closed by peer");
-  if (taken == size) return;
-  const std::size_t waiting = peer->queue.size() - peer->queue_from;
-  if (waiting + size - taken > settings_.queue_max)
-    return end(*peer, CloseReason::queue_full, "did not read: more than " + std::to_string(settings_.queue_max) + " bytes waited");
-  for (const Bytes part : parts) {
-    const std::size_t skipped = std::min(taken, part.size());
-    taken -= skipped;
-    peer->queue.insert(peer->queue.end(), part.begin() + static_cast<std::ptrdiff_t>(skipped), part.end());
-  }
-  if (peer->is_open) await_room(*peer);
-}
-
-void TcpTransport::Core::await_room(Peer& peer) {
-  if (peer.is_writing) return;
-  peer.is_writing = true;
-  peer.socket.async_wait(tcp::socket::wait_write, [this, id = peer.id](const asio::error_code& error) {
-    Peer* ready = find(id);
-    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
-    ready->is_writing = false;
-    drain(*ready);
-  });
-}
-
-void TcpTransport::Core::drain(Peer& peer) {
-  const Bytes waiting = Bytes(peer.queue).subspan(peer.queue_from);
-  bool is_broken = false;
-  peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
-  if (is_broken) return end(peer, CloseReason::closed_by_peer, "closed by peer");
-  if (peer.queue_from < peer.queue.size()) {
-    // What has gone is cut off now and then, so that a slow but steady reader doesn't make the queue's memory grow.
-    if (peer.queue_from > settings_.queue_max / 2) {
-      peer.queue.erase(peer.queue.begin(), peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
-      peer.queue_from = 0;
-    }
-    return await_room(peer);
-  }
-  peer.queue = {};
-  peer.queue_from = 0;
-}
-
-void TcpTransport::Core::close(ConnectionId connection) {
-  Peer* peer = find(connection);
-  if (peer == nullptr || peer->is_leaving) return;
-  if (peer->is_open && peer->queue_from < peer->queue.size()) {
-    bool is_broken = false;
-    const Bytes waiting = Bytes(peer->queue).subspan(peer->queue_from);
-    write(*peer, std::span(&waiting, 1), is_broken);
-  }
-  if (peer->is_open) {
-    // Unread input would turn our close into a reset, which may overtake the last bytes that we sent.
-    asio::error_code ignored;
-    peer->socket.shutdown(tcp::socket::shutdown_send, ignored);
-    while (::recv(peer->socket.native_handle(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT) > 0) {
-    }
-  }
-  end(*peer, CloseReason::closed_by_us, "closed by us");
 }
 
 void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& detail) {
