@@ -74,7 +74,7 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
   if (measured.keys_sent < measured.keys_due) return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
   if (static_cast<double>(measured.late_sends) > late_fraction_max * static_cast<double>(measured.keys_sent))
     return "the bots could not keep their schedule: " + std::to_string(measured.late_sends) + " of " + std::to_string(measured.keys_sent) + " keys went out more than " +
-           std::to_string(static_cast<int>(loadgen::Probe::late_s * 1e6)) + " us late";
+           std::to_string(static_cast<int>(loadgen::Probe::late_s * 1e3)) + " ms late";
   return "";
 }
 
@@ -128,6 +128,7 @@ game::ExitStatus play(const Options& options) {
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
   const double give_up_s = now_s() + options.patience_s;
   while (!is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) crowd.run_once();
+  for (const double until_s = now_s() + 0.1; !is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
   const Json written = report(options, crowd);
   const game::ExitStatus result = status(crowd);
   crowd.resign();
