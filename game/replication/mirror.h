@@ -31,7 +31,7 @@ struct MirrorCounters {
 /// Applies the RTI's callbacks about objects. Look-ups take constant time; nothing is allocated once all entities are known.
 class Mirror {
  public:
-  explicit Mirror(const ObjectModel& model) : model_(model) {}
+  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position} {}
 
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
   void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
@@ -60,6 +60,7 @@ class Mirror {
   bool reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values);
 
   const ObjectModel& model_;
+  const rti::AttributeSet position_;
   std::vector<std::vector<Known>> known_;  ///< by object handle: its block, then its number within it
   std::vector<MirroredEntity> entities_;
   Goals goals_;
