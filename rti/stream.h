@@ -23,8 +23,9 @@ class Writer {
 
   template <class Number>
   bool number(Number& value) {
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof value);
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + sizeof value);
+    std::memcpy(bytes_.data() + end, &value, sizeof value);
     return true;
   }
   template <class Number>
