@@ -55,7 +55,8 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   states << "kind,id,x,y,vx,vy\n";
   for (const Entity& entity : game.entities()) {
     const Vector2 x = game.position(entity.id), v = game.velocity(entity.id);
-    states << (entity.kind == physics::BodyKind::puck ? "puck," : entity.kind == physics::BodyKind::bat ? "bat," : "post,") << entity.id.index << ',' << x.x() << ',' << x.y() << ',' << v.x() << ',' << v.y() << '\n';
+    states << (entity.kind == physics::BodyKind::puck ? "puck," : entity.kind == physics::BodyKind::bat ? "bat," : "post,");
+    states << entity.id.index << ',' << x.x() << ',' << x.y() << ',' << v.x() << ',' << v.y() << '\n';
   }
   hash << std::hex << game.hash();
   EXPECT_EQ(text_of(file("states.csv")), states.str());
