@@ -82,7 +82,7 @@ void BotCrowd::after_receiving(Bot& bot) {
 
 void BotCrowd::on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) {
   const game::ExitStatus status = reason == rti::CloseReason::refused ? game::ExitStatus::no_server : game::ExitStatus::connection_lost;
-  lose(*bots_[bot_of_connection_[connection]], std::string(to_string(reason)) + (detail.empty() ? "" : ": " + detail), status);
+  lose(*bots_[bot_of_connection_[connection]], detail.empty() ? to_string(reason) : detail, status);
 }
 
 void BotCrowd::lose(Bot& bot, const std::string& why, game::ExitStatus status) {

@@ -62,6 +62,8 @@ class TcpTransport::Core {
 
   TcpSettings settings_;
   asio::io_context context_{1};
+  /// Without work left, say after the last connection closed, Asio would stop and refuse to wait.
+  asio::executor_work_guard<asio::io_context::executor_type> work_{context_.get_executor()};
   asio::steady_timer timer_;
   bool is_timer_due_ = false;
   std::vector<std::unique_ptr<asio::ip::tcp::acceptor>> acceptors_;

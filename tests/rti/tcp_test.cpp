@@ -271,6 +271,20 @@ TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
   for (const std::uint64_t count : reflected) EXPECT_EQ(count, (client_count - 1) * update_count);
 }
 
+TEST(Tcp, APollWaitsAsLongAsItShallAfterTheLastConnectionClosed) {
+  TcpTransport transport;
+  Tally tally;
+  TcpTransport listener;
+  const std::uint16_t port = listener.listen("127.0.0.1", 0);
+  const ConnectionId connection = transport.connect("127.0.0.1", port);
+  while (tally.opened == 0) transport.poll(10ms, tally);
+  transport.close(connection);
+  transport.poll(5ms, tally);
+  const auto before = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3; ++i) transport.poll(5ms, tally);
+  EXPECT_GE(std::chrono::steady_clock::now() - before, 14ms);
+}
+
 TEST(InProcess, APollReportsWhatHappenedInTheOrderInWhichItDid) {
   InProcessNetwork network(1000);
   InProcessEndpoint server(network), client(network);

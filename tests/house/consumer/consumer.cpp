@@ -2,9 +2,14 @@
 #include <cstdio>
 
 #include "im/filter.h"
-#include "rti/fom.h"
+#include "rti/federation_execution.h"
+#include "rti/transport/federate_link.h"
+#include "rti/transport/federation_host.h"
+#include "rti/transport/in_process.h"
 
 namespace {
+
+using rink::rti::Ambassador;
 
 constexpr const char* model = R"(<?xml version="1.0"?>
 <objectModel xmlns="http://standards.ieee.org/IEEE1516-2010">
@@ -33,10 +38,56 @@ bool model_has_a_ship_with_a_position() {
   return ship && fom.attribute(*ship, "position");
 }
 
+class Lookout : public rink::rti::FederateAmbassador {
+ public:
+  std::size_t ships = 0;
+  void discover_object_instance(rink::rti::ObjectHandle, rink::rti::ObjectClassHandle, std::string_view) override { ++ships; }
+};
+
+/// Two federates, one federation, no game: what one registers, the other discovers.
+bool a_lookout_discovers_a_ship() {
+  const rink::rti::Fom fom = rink::rti::Fom::parse(model, "consumer.xml");
+  rink::rti::InProcessNetwork network;
+  rink::rti::InProcessEndpoint hub(network), sea(network);
+  rink::rti::FederationExecution execution(fom, {.federation = "fleet"});
+  rink::rti::FederationHost host(execution);
+  hub.listen("rti");
+  host.add(hub);
+
+  rink::rti::FederateAmbassador nothing;
+  Lookout lookout;
+  Ambassador captain(fom, nothing), crew(fom, lookout);
+  rink::rti::FederateLink captains(captain, sea, sea.connect("rti")), crews(crew, sea, sea.connect("rti"));
+  rink::rti::FederateLinks links;
+  links.add(captains);
+  links.add(crews);
+  const auto exchange = [&] {
+    for (int round = 0; round < 4; ++round) {
+      host.poll({});
+      host.match();
+      host.flush();
+      sea.poll({}, links);
+      links.flush(0.0);
+    }
+  };
+  const auto ship = *fom.object_class("Ship");
+  captain.join("fleet", "captain", "ship");
+  crew.join("fleet", "crew", "ship");
+  captain.publish_object_class_attributes(ship, fom.attributes(ship));
+  crew.subscribe_object_class_attributes(ship, fom.attributes(ship));
+  exchange();
+  const std::byte position[8] = {};
+  captain.update_attribute_values(captain.register_object_instance(ship, "Pequod"), fom.attributes(ship), position, {});
+  captains.flush(0.0);
+  exchange();
+  return lookout.ships == 1;
+}
+
 }  // namespace
 
 int main() {
   if (!touching_regions_overlap()) return std::puts("touching regions were missed"), 1;
+  if (!a_lookout_discovers_a_ship()) return std::puts("the ship was not discovered"), 1;
   if (!model_has_a_ship_with_a_position()) return std::puts("the object model was misread"), 1;
   return 0;
 }
