@@ -12,6 +12,7 @@ namespace rink::rti {
 struct TcpSettings {
   std::size_t queue_max = 1u << 20;      ///< bytes queued for a peer that doesn't read, before it is closed [bytes]
   std::size_t read_buffer = 256 * 1024;  ///< shared by all connections [bytes]
+  std::size_t bytes_per_poll = 1u << 20; ///< received from all together before a poll returns, give or take a buffer [bytes]
 };
 
 /// Any number of connections on one thread, without Nagle's delay. `poll` wakes within the kernel's own timer slack.

@@ -59,6 +59,7 @@ class TcpTransport::Core {
   void end(Peer& peer, CloseReason reason, const std::string& detail);
   void report_closed();
   void wait(std::chrono::nanoseconds longest_wait);
+  void take_what_came();
 
   TcpSettings settings_;
   asio::io_context context_{1};
@@ -73,6 +74,7 @@ class TcpTransport::Core {
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling
   std::uint64_t reported_ = 0, before_ = 0;       ///< events told to listeners so far, and when this poll began
+  std::uint64_t bytes_taken_ = 0;                 ///< received by all connections
 };
 
 }  // namespace rink::rti

@@ -44,6 +44,7 @@ void TcpTransport::Core::read(Peer& peer) {
     return end(peer, close_reason_of(error), error.message());
   }
   peer.counters.bytes_received += static_cast<std::uint64_t>(size);
+  bytes_taken_ += static_cast<std::uint64_t>(size);
   ++reported_;
   listener_->on_bytes(id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
   if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);

@@ -199,6 +199,33 @@ TEST(Tcp, AKilledProcessLeavesTheFederationWithinASecond) {
   waitpid(child, nullptr, 0);
 }
 
+TEST(Tcp, APeerThatSendsWithoutPauseKeepsNeitherThePollNorTheOthersWaiting) {
+  TcpSettings settings;
+  settings.bytes_per_poll = 64 * 1024;
+  settings.read_buffer = 16 * 1024;
+  TcpTransport server(settings), flooder, modest;
+  Tally here, there;
+  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  const ConnectionId flood = flooder.connect("127.0.0.1", port);
+  const ConnectionId other = modest.connect("127.0.0.1", port);
+  while (here.opened < 2) flooder.poll(1ms, there), modest.poll(1ms, there), server.poll(1ms, here);
+  const std::vector<std::byte> much(1'000'000), little(10);
+  flooder.send(flood, std::array{Bytes(much)});
+  modest.send(other, std::array{Bytes(little)});
+  std::uint64_t most = 0;
+  for (int i = 0; i < 1000 && here.bytes < much.size() + little.size(); ++i) {
+    const std::uint64_t before = here.bytes;
+    server.poll(1ms, here);
+    most = std::max(most, here.bytes - before);
+    if (i == 3) {
+      EXPECT_EQ(std::min(server.counters(0).bytes_received, server.counters(1).bytes_received), little.size()) << "its turn comes soon";
+    }
+    flooder.poll(0ms, there);
+  }
+  EXPECT_EQ(here.bytes, much.size() + little.size());
+  EXPECT_LE(most, 64u * 1024u + 2 * 16u * 1024u);
+}
+
 TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
   TcpTransport transport;
   Tally tally;
