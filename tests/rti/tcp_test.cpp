@@ -226,6 +226,13 @@ TEST(Tcp, APeerThatSendsWithoutPauseKeepsNeitherThePollNorTheOthersWaiting) {
   EXPECT_LE(most, 64u * 1024u + 2 * 16u * 1024u);
 }
 
+TEST(Tcp, ATransportWhoseLastConnectionWentStillWaitsNoLongerThanAsked) {
+  TcpTransport transport;
+  Tally tally;
+  for (int i = 0; i < 5; ++i) transport.poll(3ms, tally);
+  EXPECT_EQ(tally.opened + tally.closed, 0);
+}
+
 TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
   TcpTransport transport;
   Tally tally;
