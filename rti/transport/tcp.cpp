@@ -163,7 +163,6 @@ void TcpTransport::Core::wait(std::chrono::nanoseconds longest_wait) {
   if (reported_ == before_) {
     is_timer_due_ = false;
     timer_.async_wait([this](const asio::error_code& error) { is_timer_due_ = !error; });
-    context_.restart();  // without a connection left Asio has stopped, and would not run the timer either
     while (reported_ == before_ && !is_timer_due_) {
       context_.run_one();
       report_closed();
