@@ -10,6 +10,7 @@
 
 #include "game/control/key_log.h"
 #include "game/net/exit_status.h"
+#include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "loadgen/bot_crowd.h"
 #include "loadgen/plan.h"
@@ -39,14 +40,14 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 --duration 30 --report bots.json\n\n") + game::exit_status_help);
   app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
-  app.add_option("--count", options.count, "bots")->check(CLI::Range(1u, 100'000u))->capture_default_str();
-  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->capture_default_str();
+  app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
+  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
   app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
   app.add_option("--seed", options.seed, "of the plan")->capture_default_str();
-  app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(CLI::NonNegativeNumber)->capture_default_str();
-  app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->capture_default_str();
+  app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
+  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
+  app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 
@@ -115,6 +116,7 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
 
 game::ExitStatus play(const Options& options) {
   const auto [address, port] = address_and_port(options.connect);
+  game::require_writable("--report", options.report);
   const rti::Fom fom = rti::Fom::load(game::fom_file());
   const std::vector<game::InputEvent> plan = plan_of(options);
   rti::ensure_file_limit(options.count + 64u);
@@ -145,6 +147,7 @@ game::ExitStatus play(const Options& options) {
 }  // namespace
 
 int main(int count, char** values) {
+  game::speak_as("rink-bots");
   CLI::App app;
   Options options;
   add_options(app, options);

@@ -1,6 +1,5 @@
 // rink serve: the server federate and, beside it, the RTI with its filter, on a real-time or synchronous tick.
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -14,10 +13,12 @@
 #include "game/control/key_log.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
+#include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "game/net/server.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
+#include "rti/message.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
@@ -33,6 +34,9 @@ volatile std::sig_atomic_t is_interrupted = 0;
 /// The due instant in stamps from before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
 
+/// A federate registers at most `object_block` objects; the rest is for bats that come back.
+constexpr std::size_t body_max = rti::object_block / 2;
+
 struct Options {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, pace = "realtime";
   std::uint16_t port = 4711;
@@ -45,14 +49,6 @@ struct Options {
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
 
 std::chrono::nanoseconds nanoseconds(double seconds) { return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)); }
-
-/// Resident memory of this process [bytes].
-std::uint64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t total = 0, resident = 0;
-  file >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
 
 /// What the run cost, summed over the measured ticks.
 struct Costs {
@@ -108,6 +104,7 @@ class Serving {
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void exchange_until(double until_s);
   void exchange(double longest_wait_s);
+  void await_turns();
   void send_tick(double simulated_s, double due_s, Costs& costs);
   void tick(std::uint64_t number);
 
@@ -143,6 +140,14 @@ void Serving::exchange(double longest_wait_s) {
 void Serving::exchange_until(double until_s) {
   do exchange(std::min(0.25, until_s - now_s()));
   while (now_s() < until_s && !is_interrupted);
+}
+
+/// However long the players think, silence is noticed and the RTI is heard to live.
+void Serving::await_turns() {
+  while (!is_interrupted && server_.trouble().empty() && !server_.all_turns_done()) {
+    exchange(0.25);
+    host_.advance_clock(now_s());
+  }
 }
 
 bool Serving::start() {
@@ -200,9 +205,10 @@ void Serving::run() {
   for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.trouble().empty(); ++number) {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous")
-      while (!is_interrupted && !server_.all_turns_done()) exchange(0.25);
+      await_turns();
     else
       exchange_until(start_s_ + simulated_s);
+    if (is_interrupted || !server_.trouble().empty()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
@@ -244,7 +250,7 @@ Json Serving::report() const {
           {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
           {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
           {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
-          {"server_rss_bytes", resident_bytes()},
+          {"server_rss_bytes", game::resident_bytes()},
           {"state_hash", hash},
           {"measured_s", costs_.span_s},
           {"bytes_sent", costs_.tcp_end.bytes_sent - costs_.tcp_begin.bytes_sent},
@@ -275,31 +281,38 @@ void add_options(CLI::App& app, Options& options) {
   app.description("The server federate: simulates a scene exactly and tells each client what lies in its interest.");
   app.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region --duration 30 --report server.json\n\n") + game::exit_status_help);
   app.add_option("--scene", options.scene, "preset (match, crowd) or TOML file")->capture_default_str();
-  app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->capture_default_str();
+  app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(game::number_from(0, game::bats_max))->capture_default_str();
   app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
   app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
   app.add_option("--address", options.address, "to listen on")->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
-  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(CLI::NonNegativeNumber)->capture_default_str();
+  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(game::number_from(0.0, 1e6))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(game::update_policy_names()))->capture_default_str();
-  app.add_option("--rate", options.rate_hz, "ticks per second")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
+  app.add_option("--rate", options.rate_hz, "ticks per second")->check(game::number_from(1.0, 1000.0))->capture_default_str();
   app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
       ->check(CLI::IsMember({"realtime", "synchronous"}))
       ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")->check(CLI::NonNegativeNumber)->capture_default_str();
-  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(CLI::NonNegativeNumber)->capture_default_str();
-  app.add_option("--clients", options.clients, "players to wait for before the start")->capture_default_str();
-  app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
+  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
+  app.add_option("--clients", options.clients, "players to wait for before the start")->check(game::number_from(0, game::bats_max))->capture_default_str();
+  app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
   app.add_option("--record", options.record, "file for the key log of this run");
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << '\n';
-  if (!file.flush()) throw std::runtime_error("cannot write '" + path + "'");
+/// Throws if nobody could ever satisfy the options, or a file for the results could not be written when the run is over.
+void require_room(const Options& options, const game::Scene& scene) {
+  const game::Bodies& bodies = scene.bodies;
+  if (options.clients > bodies.bats.size())
+    throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene + "' has " + std::to_string(bodies.bats.size()) +
+                             " bats; allowed is at most as many");
+  const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
+  if (body_count > body_max)
+    throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
+  game::require_writable("--report", options.report);
+  game::require_writable("--record", options.record);
 }
 
 game::ExitStatus serve(Options& options) {
@@ -315,6 +328,7 @@ game::ExitStatus serve(Options& options) {
   game::Scene scene = game::load_scene(options.scene);
   if (options.bats > 0) scene = game::scaled_to_bats(scene, options.bats);
   if (options.seed > 0) scene = game::with_seed(scene, options.seed);
+  require_room(options, scene);
   std::optional<std::vector<game::InputEvent>> replay;
   if (!options.keys.empty()) {
     game::KeyLog log = game::read_key_log(options.keys);
@@ -330,9 +344,11 @@ game::ExitStatus serve(Options& options) {
   const bool is_complete = serving.start();
   if (is_complete) serving.run();
   Json report = serving.report();
+  if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
+    spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
   serving.end();
   serving.add_totals(report);
-  if (!options.report.empty()) write_file(options.report, report.dump(2));
+  if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (!options.record.empty()) {
     game::KeyLog log = game::key_log_for(scene);
     log.scene = options.scene;
@@ -365,6 +381,7 @@ game::ExitStatus serve_or_explain(Options& options) {
 }  // namespace
 
 int main(int count, char** values) {
+  game::speak_as("rink-serve");
   CLI::App app;
   Options options;
   add_options(app, options);

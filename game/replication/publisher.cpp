@@ -48,6 +48,7 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
 void Publisher::add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
   published.object = ambassador_.register_object_instance(model_.entity, entity.player ? bat_name(*entity.player) : "");
+  if (!published.object) return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to be seen, the others play on
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
   published.input = input;

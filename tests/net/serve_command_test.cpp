@@ -1,0 +1,103 @@
+// The commands rink-serve and rink-bots from their arguments to their exit status and last words, as a careless user would start them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "loadgen/process.h"
+
+namespace rink::game {
+namespace {
+
+using loadgen::Process;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+/// How a command ended and what it said.
+struct Ended {
+  int status = -1;
+  std::string words;
+};
+
+Ended run(const std::string& command, const std::vector<std::string>& arguments) {
+  Process process(std::string(RINK_BINARY_DIR) + "/bin/" + command, arguments, {});
+  const auto limit = std::chrono::steady_clock::now() + 20s;
+  while (!process.ending() && std::chrono::steady_clock::now() < limit) process.attend(20ms);
+  if (!process.ending()) return {};
+  return {process.ending()->exit_status, process.last_words()};
+}
+
+Ended serve(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--port", "0"});
+  return run("rink-serve", arguments);
+}
+
+TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
+  for (const char* flag : {"--rate", "--duration", "--warm-up", "--patience", "--cell-size", "--bats", "--clients"}) {
+    for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
+      const Ended ended = serve({"--scene", "match", flag, value});
+      EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
+      EXPECT_THAT(ended.words, HasSubstr(flag));
+      EXPECT_THAT(ended.words, HasSubstr("is not a number from")) << flag << ' ' << value;
+    }
+  }
+}
+
+TEST(ServeCommand, MorePlayersThanBatsEndAtOnce) {
+  const Ended ended = serve({"--scene", "match", "--clients", "3"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.words, HasSubstr("--clients: 3 players, but scene 'match' has 2 bats"));
+}
+
+TEST(ServeCommand, ResultsThatCannotBeWrittenAreNamedBeforeTheRun) {
+  for (const char* flag : {"--report", "--record"}) {
+    const Ended ended = serve({"--scene", "match", "--duration", "3600", flag, "/nowhere/at/all"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.words, HasSubstr(std::string(flag) + ": cannot write '/nowhere/at/all'"));
+  }
+}
+
+TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
+  const std::filesystem::path report = std::filesystem::path(testing::TempDir()) / ("serve-" + std::to_string(getpid()) + ".json");
+  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve",
+                 {"--scene", "match", "--pace", "synchronous", "--port", "0", "--report", report.string()}, {});
+  const auto limit = std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
+  while (!server.ending() && std::chrono::steady_clock::now() < limit) server.attend(20ms);
+  server.stop(5s);
+  EXPECT_EQ(server.ending()->exit_status, 130) << server.last_words();
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(report)).at("why_invalid"), "interrupted");
+  std::filesystem::remove(report);
+}
+
+TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
+  for (const char* flag : {"--count", "--first", "--view", "--duration", "--warm-up", "--patience"}) {
+    for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
+      const Ended ended = run("rink-bots", {flag, value});
+      EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
+      EXPECT_THAT(ended.words, HasSubstr("is not a number from")) << flag << ' ' << value;
+    }
+  }
+}
+
+TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
+  auto server = std::make_unique<Process>(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
+                                          std::vector<int>{});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server->attend(10ms), place = server->line_after("listening on ");
+  ASSERT_TRUE(place) << server->last_words();
+  Process bots(std::string(RINK_BINARY_DIR) + "/bin/rink-bots", {"--connect", *place, "--count", "2", "--duration", "60"}, {});
+  for (int i = 0; i < 50; ++i) bots.attend(20ms);
+  ASSERT_FALSE(bots.ending()) << bots.last_words();
+  server.reset();
+  for (int i = 0; i < 100 && !bots.ending(); ++i) bots.attend(20ms);
+  ASSERT_TRUE(bots.ending());
+  EXPECT_EQ(bots.ending()->exit_status, 16);
+  EXPECT_THAT(bots.last_words(), HasSubstr("lost: closed by peer"));
+}
+
+}  // namespace
+}  // namespace rink::game
