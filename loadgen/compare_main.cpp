@@ -133,7 +133,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Runs every mode x scheme x policy x client count x seed of an experiment as a server and its bots over loopback, and compares them."};
-  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, full")
+  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, five_hundred, full")
       ->capture_default_str();
   app.add_option("--out", options.out, "folder for the results (default: report, or report-2, ... if taken)");
   app.add_flag("--force", options.may_replace, "replace results that are already there");
