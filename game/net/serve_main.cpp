@@ -15,6 +15,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
+#include "game/net/serve_options.h"
 #include "game/net/server.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
@@ -36,14 +37,6 @@ constexpr double not_started_s = 0.0;
 
 /// A federate registers at most `object_block` objects; the rest is for bats that come back.
 constexpr std::size_t body_max = rti::object_block / 2;
-
-struct Options {
-  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, pace = "realtime";
-  std::uint16_t port = 4711;
-  std::uint32_t bats = 0, clients = 0;
-  std::uint64_t seed = 0;
-  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0;
-};
 
 /// The clock of every process of this machine that the stamps refer to [s].
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
@@ -74,7 +67,7 @@ class Stopwatch {
 /// The whole server process: game, RTI, transports, and the loop that ticks them.
 class Serving {
  public:
-  Serving(const Options& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
+  Serving(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
       : options_(options),
         execution_(fom, federation_settings(options, scene, federation)),
         host_(execution_),
@@ -100,7 +93,7 @@ class Serving {
   void add_totals(Json& report) const;
 
  private:
-  static rti::FederationSettings federation_settings(const Options& options, const game::Scene& scene, const std::string& federation);
+  static rti::FederationSettings federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void exchange_until(double until_s);
   void exchange(double longest_wait_s);
@@ -108,7 +101,7 @@ class Serving {
   void send_tick(double simulated_s, double due_s, Costs& costs);
   void tick(std::uint64_t number);
 
-  Options options_;
+  game::ServeOptions options_;
   rti::InProcessNetwork network_;
   rti::InProcessEndpoint hub_{network_}, endpoint_{network_};
   rti::TcpTransport tcp_;
@@ -121,7 +114,7 @@ class Serving {
   Costs costs_;
 };
 
-rti::FederationSettings Serving::federation_settings(const Options& options, const game::Scene& scene, const std::string& federation) {
+rti::FederationSettings Serving::federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
   rti::FederationSettings settings;
   settings.federation = federation;
   settings.filter = options.scheme;
@@ -277,33 +270,8 @@ void Serving::add_totals(Json& report) const {
   report["kernel_bytes_received"] = total.kernel_bytes_received.value_or(0);
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.description("The server federate: simulates a scene exactly and tells each client what lies in its interest.");
-  app.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region --duration 30 --report server.json\n\n") + game::exit_status_help);
-  app.add_option("--scene", options.scene, "preset (match, crowd) or TOML file")->capture_default_str();
-  app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(game::number_from(0, game::bats_max))->capture_default_str();
-  app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
-  app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
-  app.add_option("--address", options.address, "to listen on")->capture_default_str();
-  app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
-  app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
-  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(game::number_from(0.0, 1e6))->capture_default_str();
-  app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(game::update_policy_names()))->capture_default_str();
-  app.add_option("--rate", options.rate_hz, "ticks per second")->check(game::number_from(1.0, 1000.0))->capture_default_str();
-  app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
-      ->check(CLI::IsMember({"realtime", "synchronous"}))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
-  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
-  app.add_option("--clients", options.clients, "players to wait for before the start")->check(game::number_from(0, game::bats_max))->capture_default_str();
-  app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
-  app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
-  app.add_option("--record", options.record, "file for the key log of this run");
-  app.add_option("--report", options.report, "file for the measurements, as JSON");
-}
-
 /// Throws if nobody could ever satisfy the options, or a file for the results could not be written when the run is over.
-void require_room(const Options& options, const game::Scene& scene) {
+void require_room(const game::ServeOptions& options, const game::Scene& scene) {
   const game::Bodies& bodies = scene.bodies;
   if (options.clients > bodies.bats.size())
     throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene + "' has " + std::to_string(bodies.bats.size()) +
@@ -315,7 +283,7 @@ void require_room(const Options& options, const game::Scene& scene) {
   game::require_writable("--record", options.record);
 }
 
-game::ExitStatus serve(Options& options) {
+game::ExitStatus serve(game::ServeOptions& options) {
   std::string federation = "rink", fom_path = game::fom_file();
   if (!options.federation_file.empty()) {
     const rti::FederationFile file = rti::load_federation_file(options.federation_file);
@@ -364,7 +332,7 @@ game::ExitStatus serve(Options& options) {
 }
 
 /// Runs `serve` and turns what it throws into one line and an exit status.
-game::ExitStatus serve_or_explain(Options& options) {
+game::ExitStatus serve_or_explain(game::ServeOptions& options) {
   try {
     return serve(options);
   } catch (const rti::TransportError& error) {
@@ -383,8 +351,8 @@ game::ExitStatus serve_or_explain(Options& options) {
 int main(int count, char** values) {
   game::speak_as("rink-serve");
   CLI::App app;
-  Options options;
-  add_options(app, options);
+  game::ServeOptions options;
+  game::add_options(app, options);
   try {
     app.parse(count, values);
   } catch (const CLI::ParseError& error) {

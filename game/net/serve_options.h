@@ -1,0 +1,48 @@
+// The flags of rink serve.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "game/net/exit_status.h"
+#include "game/net/flags.h"
+#include "game/replication/update_policy.h"
+#include "rti/federation_execution.h"
+
+namespace rink::game {
+
+struct ServeOptions {
+  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, pace = "realtime";
+  std::uint16_t port = 4711;
+  std::uint32_t bats = 0, clients = 0;
+  std::uint64_t seed = 0;
+  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0;
+};
+
+inline void add_options(CLI::App& app, ServeOptions& options) {
+  app.description("The server federate: simulates a scene exactly and tells each client what lies in its interest.");
+  app.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region --duration 30 --report server.json\n\n") + exit_status_help);
+  app.add_option("--scene", options.scene, "preset (match, crowd) or TOML file")->capture_default_str();
+  app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
+  app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
+  app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
+  app.add_option("--address", options.address, "to listen on")->capture_default_str();
+  app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
+  app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
+  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(number_from(0.0, 1e6))->capture_default_str();
+  app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
+  app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();
+  app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
+      ->check(CLI::IsMember({"realtime", "synchronous"}))
+      ->capture_default_str();
+  app.add_option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")->check(number_from(0.0, seconds_max))->capture_default_str();
+  app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(number_from(0.0, seconds_max))->capture_default_str();
+  app.add_option("--clients", options.clients, "players to wait for before the start")->check(number_from(0, bats_max))->capture_default_str();
+  app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(number_from(0.001, seconds_max))->capture_default_str();
+  app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
+  app.add_option("--record", options.record, "file for the key log of this run");
+  app.add_option("--report", options.report, "file for the measurements, as JSON");
+}
+
+}  // namespace rink::game
