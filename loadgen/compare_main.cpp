@@ -28,7 +28,7 @@ provenance.json, keys/ (the key log of each game) and cells/ (the reports of the
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written; 130 interrupted (what was measured is kept).
 
-Example: rink-compare full.toml --out /tmp/full)";
+Example: rink compare full --out full-report)";
 
 constexpr std::size_t files_besides_clients = 64;
 

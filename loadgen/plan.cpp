@@ -1,4 +1,4 @@
-// Seeded key plans from a generator and distributions of our own, since the standard library's distributions differ between libraries.
+// Seeded key plans from our own generator and distributions, since the standard library's distributions differ between libraries.
 #include "loadgen/plan.h"
 
 #include <algorithm>
@@ -6,36 +6,21 @@
 #include <cmath>
 #include <tuple>
 
+#include "game/model/random_stream.h"
+
 namespace rink::loadgen {
 namespace {
-
-/// SplitMix64 (Steele, Lea and Flood 2014): passes BigCrush and any 64-bit number is a good seed.
-class RandomStream {
- public:
-  RandomStream(std::uint64_t seed, std::uint64_t stream) : state_(mixed(seed) ^ mixed(~stream)) {}
-  std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }
-  /// Uniform in (0, 1].
-  double uniform() { return static_cast<double>((next() >> 11) + 1) * 0x1p-53; }
-
- private:
-  static std::uint64_t mixed(std::uint64_t bits) {
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-  }
-  std::uint64_t state_;
-};
 
 constexpr game::Key keys_of_axis[2][2] = {{game::Key::left, game::Key::right}, {game::Key::up, game::Key::down}};
 
 /// An exponential wait that is never below `shortest_s` and keeps the mean, in whole microseconds: a last-bit difference between two libraries'
-/// logarithms cannot reach the plan.
-std::int64_t wait_us(RandomStream& random, double mean_s, double shortest_s) {
-  return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform())) * 1e6);
+/// logarithms cannot reach the plan. The logarithm's argument is within (0, 1].
+std::int64_t wait_us(game::RandomStream& random, double mean_s, double shortest_s) {
+  return std::llround((shortest_s - (mean_s - shortest_s) * std::log(random.uniform() + 0x1p-53)) * 1e6);
 }
 
 void plan_axis(std::vector<game::InputEvent>& keys, std::uint64_t seed, std::uint32_t player, std::size_t axis, double duration_s, const PressHabits& habits) {
-  RandomStream random(seed, 2 * std::uint64_t{player} + axis);
+  game::RandomStream random(seed, 2 * std::uint64_t{player} + axis);
   const auto end_us = static_cast<std::int64_t>(std::floor(duration_s * 1e6));
   std::int64_t now_us = 0;
   while (true) {
