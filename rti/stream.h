@@ -29,7 +29,7 @@ class Writer {
     return true;
   }
   template <class Number>
-  bool range(Number& value, std::uint64_t max) {
+  bool range(Number& value, [[maybe_unused]] std::uint64_t max) {
     assert(value <= max);
     return number(value);
   }
@@ -39,7 +39,7 @@ class Writer {
   }
   /// A length of `Length`'s size, then that many bytes.
   template <class Length>
-  bool bytes(Bytes& value, std::size_t max) {
+  bool bytes(Bytes& value, [[maybe_unused]] std::size_t max) {
     assert(value.size() <= max);
     Length length = static_cast<Length>(value.size());
     number(length);
