@@ -216,7 +216,7 @@ void Serving::run() {
 }
 
 void Serving::end() {
-  const double give_up_s = now_s() + 2.0;
+  const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
   while (server_.player_count() > 0 && now_s() < give_up_s) exchange(0.01);
 }
 
