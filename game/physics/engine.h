@@ -156,7 +156,7 @@ class Engine {
   void collide(std::uint32_t body, Partner partner, double time);
   void collide_ordered(std::uint32_t body, Partner partner, double time);
   void bounce(const Contact& contact, double approach, double restitution, double time);
-  void count_impact(std::uint32_t body, Partner partner);
+  void count_impact(std::uint32_t body, Partner partner, double time);
   void note_impact(std::uint32_t body, double time);
 
   // engine_rest.cpp
@@ -206,6 +206,8 @@ class Engine {
   std::vector<double> accelerations_;
   std::optional<Goal> goal_;
   Counters counters_;
+  bool records_impacts_ = false;
+  std::vector<Impact> impacts_;
 };
 
 }  // namespace rink::physics

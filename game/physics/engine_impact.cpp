@@ -45,7 +45,7 @@ void Engine::collide(std::uint32_t body, Partner p, double time) {
 }
 
 void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
-  count_impact(body, p);
+  count_impact(body, p, time);
   wake(body, time);
   rebase_companions(body, time);
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
@@ -82,7 +82,8 @@ void Engine::bounce(const Contact& c, double approach, double given_back, double
   p.vy = there.y() - impulse * other * c.gap.normal.y();
 }
 
-void Engine::count_impact(std::uint32_t body, Partner p) {
+void Engine::count_impact(std::uint32_t body, Partner p, double time) {
+  if (records_impacts_) impacts_.push_back({time, BodyId{body}, is_body(p) ? std::optional(BodyId{p}) : std::nullopt});
   const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind); };
   if (!is_body(p)) ++(p >= partner::edge_left_low ? counters_.post_impacts : counters_.wall_impacts);
   else if (is(BodyKind::post)) ++counters_.post_impacts;

@@ -140,7 +140,7 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
     offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
     velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
   } else {
-    const WarpedTime wa = warp(time - a.time, puck_drag_), wb = warp(time - b.time, puck_drag_);
+    const WarpedTime wa = warp_unaccelerated(time - a.time, puck_drag_), wb = warp_unaccelerated(time - b.time, puck_drag_);
     offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }

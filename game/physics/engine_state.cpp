@@ -24,7 +24,7 @@ void Engine::rebase(std::uint32_t body, double time) {
     } else if (puck_drag_ == 0.0) {
       b.x += b.vx * elapsed, b.y += b.vy * elapsed;
     } else {
-      const WarpedTime w = warp(elapsed, puck_drag_);
+      const WarpedTime w = warp_unaccelerated(elapsed, puck_drag_);
       b.x += b.vx * w.s, b.y += b.vy * w.s, b.vx *= w.e, b.vy *= w.e;
     }
     b.time = time;

@@ -63,7 +63,7 @@ void EventQueue::set(std::uint32_t body, double time, std::uint32_t lower, std::
 std::uint32_t EventQueue::earliest_in(std::uint32_t list) {
   std::uint32_t best = list;
   for (std::uint32_t body = list; body != none; body = entries_[body].next) {
-    ++scanned_;
+    ++looked_at_;
     if (precedes(entries_[body], entries_[best])) best = body;
   }
   return best;
@@ -80,8 +80,18 @@ void EventQueue::rebuild(double width) {
   later_ = none;
   near_count_ = 0;
   for (const std::uint32_t body : pending) link(body);
-  taken_ = scanned_ = 0;
-  refill_time_ = last_time_;
+  begin_span();
+}
+
+void EventQueue::begin_span() {
+  taken_ = 0;
+  span_looked_at_ = looked_at_;
+  span_begin_ = last_time_;
+}
+
+std::optional<double> EventQueue::mean_gap() const {
+  if (taken_ < span_min || last_time_ <= span_begin_) return std::nullopt;
+  return std::max((last_time_ - span_begin_) / static_cast<double>(taken_), 1e-15 * (1.0 + last_time_));
 }
 
 /// Moves the horizon on; false if nothing is due by `until`.
@@ -92,18 +102,15 @@ bool EventQueue::refill(double until) {
     current_ = bucket_number(entries_[earliest].time);
     last_time_ = std::max(last_time_, entries_[earliest].time);
   }
-  const double elapsed = last_time_ - refill_time_;
-  const auto buckets = static_cast<double>(heads_.size());
-  if (taken_ > 64 && elapsed > 0.0) {
-    const double wanted = elapsed / static_cast<double>(taken_), width = 1.0 / inverse_width_;
-    if (wanted > 4.0 * width || wanted < 0.25 * width) {
-      rebuild(std::max(wanted, 1e-15 * (1.0 + last_time_)));
+  if (const auto wanted = mean_gap()) {
+    const double width = 1.0 / inverse_width_;
+    if (*wanted > 4.0 * width || *wanted < 0.25 * width) {
+      rebuild(*wanted);
       return true;
     }
+    begin_span();
   }
-  taken_ = scanned_ = 0;
-  refill_time_ = last_time_;
-  horizon_ = current_ + static_cast<std::int64_t>(buckets);
+  horizon_ = current_ + static_cast<std::int64_t>(heads_.size());
   std::uint32_t body = later_;
   while (body != none) {
     const std::uint32_t next = entries_[body].next;
@@ -127,8 +134,9 @@ std::uint32_t EventQueue::first(double until) {
       const std::uint32_t best = earliest_in(list);
       if (entries_[best].time > until) return none;
       last_time_ = std::max(last_time_, entries_[best].time);
-      if (++taken_; scanned_ > 16 * taken_ + 4096 && last_time_ > refill_time_)
-        rebuild(std::max((last_time_ - refill_time_) / static_cast<double>(taken_), 1e-15 * (1.0 + last_time_)));
+      ++taken_;
+      if (looked_at_ - span_looked_at_ > 16 * taken_ + 4096)
+        if (const auto wanted = mean_gap()) rebuild(*wanted);
       return best;
     }
     if (static_cast<double>(current_) >= until * inverse_width_) return none;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace rink::physics {
@@ -20,6 +21,8 @@ class EventQueue {
   /// The body whose event comes first, if it comes no later than `until`, else `none`. The entry stays.
   std::uint32_t first(double until);
   double time(std::uint32_t body) const { return entries_[body].time; }
+  /// Entries looked at one by one since the queue was made: a few per event taken, or the buckets don't fit.
+  std::uint64_t looked_at() const { return looked_at_; }
 
  private:
   struct Entry {
@@ -38,6 +41,9 @@ class EventQueue {
   std::uint32_t earliest_in(std::uint32_t list);
   bool refill(double until);
   void rebuild(double width);
+  void begin_span();
+  /// The mean time between events of this span [s]; nothing if it is too short to tell.
+  std::optional<double> mean_gap() const;
 
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> heads_;
@@ -45,8 +51,11 @@ class EventQueue {
   std::uint32_t near_count_ = 0;        // entries in buckets
   double inverse_width_ = 1e3;
   std::int64_t current_ = 0, horizon_ = 0;
-  std::uint64_t taken_ = 0, scanned_ = 0;
-  double refill_time_ = 0.0, last_time_ = 0.0;
+  // The rate at which events are taken is learnt from a span of at least so many: from one or two it comes out a thousand times too great now and then.
+  static constexpr std::uint64_t span_min = 16;
+  std::uint64_t taken_ = 0;             // in this span
+  std::uint64_t looked_at_ = 0, span_looked_at_ = 0;  // ever, and before this span
+  double span_begin_ = 0.0, last_time_ = 0.0;         // simulated [s]
 };
 
 }  // namespace rink::physics

@@ -16,6 +16,9 @@ struct WarpedTime {
 /// `elapsed` [s] and `drag` [1/s] at least 0. s and q are within 4 ulp, also where g t is small and (t - s)/g would cancel; e is within 1e-16.
 WarpedTime warp(double elapsed, double drag);
 
+/// The same, bit for bit, but with q = 0: it costs three times as much as the rest, and a body without thrust has no use for it.
+WarpedTime warp_unaccelerated(double elapsed, double drag);
+
 /// The state of a body at its last event, and the law it has followed since; each axis has its own acceleration and drag, for a body in rest contact shares those of
 /// its partners along the contact's axis only.
 struct Motion {

@@ -35,6 +35,10 @@ void World::set_thrust(BodyId bat, const Vector2& acceleration) { engine_->set_t
 void World::place(BodyId puck, const Vector2& position, const Vector2& velocity) { engine_->place(puck.index, position, velocity); }
 std::optional<Goal> World::advance(double until) { return engine_->advance(until); }
 
+void World::record_impacts(bool is_wanted) { engine_->records_impacts_ = is_wanted; }
+std::span<const Impact> World::impacts() const { return engine_->impacts_; }
+void World::forget_impacts() { engine_->impacts_.clear(); }
+
 double World::now() const { return engine_->now_; }
 
 Motion World::motion(BodyId body) const { return engine_->motion(body.index); }

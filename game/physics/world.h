@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "game/physics/body.h"
 #include "game/physics/counters.h"
@@ -12,6 +13,13 @@
 namespace rink::physics {
 
 class Engine;
+
+/// `body` hit `other` at `time` [s]; `other` is nothing for a wall or the edge of a goal.
+struct Impact {
+  double time = 0.0;
+  BodyId body;
+  std::optional<BodyId> other;
+};
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls give the same bits, whatever the cell size and however often
 /// advance() stops on the way. Method, proofs and limits: docs/physics.md.
@@ -39,6 +47,12 @@ class World {
   /// Processes every event up to and including `until` [s] (not before now()), or up to the first goal, which it returns at the goal's exact time. Where it stops never
   /// changes the motion.
   std::optional<Goal> advance(double until);
+
+  /// From now on keeps a record of every impact, for observers; off at first. Never changes the motion.
+  void record_impacts(bool is_wanted);
+  /// Recorded since the last forget_impacts(), in order of time; valid until anything else is asked of the world.
+  std::span<const Impact> impacts() const;
+  void forget_impacts();
 
   double now() const;                      ///< s
   Vector2 position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
