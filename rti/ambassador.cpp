@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rti/message.h"
+#include "rti/update_block.h"
 
 namespace rink::rti {
 
@@ -73,7 +74,7 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
   assert(phase_ == Phase::joined && object_class.value < fom_.object_classes().size());
   if (objects_registered_ == object_block) return {};
   const ObjectHandle object{object_block_ * object_block + objects_registered_++};
-  remember(object) = {static_cast<std::uint16_t>(object_class.value), true};
+  own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
   say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
   return object;
 }
@@ -85,44 +86,41 @@ void Ambassador::delete_object_instance(ObjectHandle object) {
   say(DeleteObjectMessage{object.value});
 }
 
-namespace {
-
-// Where the three numbers that grow with a block of updates stand in its message.
-constexpr std::size_t count_at = UpdatesMessage::header_size - 8, records_size_at = UpdatesMessage::header_size - 4;
-
-void append_number(std::vector<std::byte>& bytes, std::uint32_t value) { Writer(bytes).number(value); }
-
-}  // namespace
-
 void Ambassador::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
-  UpdatesMessage message;
-  message.object_class = static_cast<std::uint16_t>(object_class.value);
-  message.attributes = attributes.bits;
-  message.stamp = stamp;
-  message.value_size = fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies);
-  say(message);
-  open_ = {true, object_class, attributes, stamp, message.value_size, 0, outgoing_.buffer().size() - UpdatesMessage::header_size};
+  if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp) say(StampMessage{stamp});
+  said_stamp_ = stamp;
+  stamped_frame_ = outgoing_.frame_count();
+  const UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), attributes.bits};
+  say(header);
+  outgoing_.buffer().push_back(std::byte{0});
+  open_ = {true, object_class, attributes, stamp, 0};
 }
 
 void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   const KnownObject* known = find(object);
   assert(phase_ == Phase::joined && known != nullptr && known->is_own);
   const ObjectClassHandle object_class{known->object_class};
-  assert(fom_.values_fit(object_class, attributes, values) && values.size() <= values_max);
-  const std::size_t record_size = 8 + values.size();
-  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(record_size)) {
-    if (!outgoing_.has_room(UpdatesMessage::header_size + record_size)) outgoing_.close_frame();
+  assert(fom_.values_fit(object_class, attributes, values));
+  if (is_coded(fom_.at(object_class), attributes)) {
+    coded_.clear();
+    encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
+    values = coded_;
+  }
+  assert(values.size() <= values_max);
+  // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
+  constexpr std::size_t header_size_max = StampMessage::size + 1 + 5 + 5, rest_max = 5 + 1;
+  if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
+    if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
     begin_updates(object_class, attributes, stamp);
   }
   std::vector<std::byte>& bytes = outgoing_.buffer();
-  append_number(bytes, object.value);
-  if (open_.value_size == UpdatesMessage::varies) append_number(bytes, static_cast<std::uint32_t>(values.size()));
+  bytes.pop_back();  // the zero that ends the block
+  std::uint64_t step = handle_step(open_.last_object, object.value);
+  Writer(bytes).varint(step);
+  open_.last_object = object.value;
   bytes.insert(bytes.end(), values.begin(), values.end());
+  bytes.push_back(std::byte{0});
   outgoing_.appended();
-  const std::uint32_t count = ++open_.count;
-  const auto records_size = static_cast<std::uint32_t>(bytes.size() - open_.at - UpdatesMessage::header_size);
-  std::memcpy(bytes.data() + open_.at + count_at, &count, sizeof count);
-  std::memcpy(bytes.data() + open_.at + records_size_at, &records_size, sizeof records_size);
   ++counters_.updates_sent;
 }
 
@@ -208,17 +206,15 @@ void Ambassador::advance_clock(double now) {
 }
 
 Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
-  const std::uint32_t block = object.value / object_block, number = object.value % object_block;
-  if (block >= known_.size() || number >= known_[block].size()) return nullptr;
-  KnownObject& known = known_[block][number];
-  return known.object_class == KnownObject::unknown ? nullptr : &known;
+  if (!is_ours(object)) return known_.find(object);
+  const std::uint32_t number = object.value % object_block;
+  const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
+  return is_known ? &own_[number] : nullptr;
 }
 
-Ambassador::KnownObject& Ambassador::remember(ObjectHandle object) {
-  const std::uint32_t block = object.value / object_block, number = object.value % object_block;
-  if (block >= known_.size()) known_.resize(block + 1);
-  if (number >= known_[block].size()) known_[block].resize(number + 1);
-  return known_[block][number];
+std::size_t Ambassador::memory_bytes() const {
+  return own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.capacity() * sizeof regions_[0] + free_regions_.capacity() * sizeof free_regions_[0] +
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes();
 }
 
 }  // namespace rink::rti

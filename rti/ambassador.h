@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "rti/fom.h"
 #include "rti/frame.h"
 #include "rti/message.h"
+#include "rti/object_map.h"
 #include "rti/stream.h"
 
 namespace rink::rti {
@@ -96,6 +98,8 @@ class Ambassador {
   void disconnected(std::string_view why);
 
   const AmbassadorCounters& counters() const { return counters_; }
+  /// Of buffers and tables, the ambassador itself not counted.
+  std::size_t memory_bytes() const;
 
  private:
   enum class Phase : std::uint8_t { idle, joining, joined, ended };
@@ -106,8 +110,8 @@ class Ambassador {
   };
   template <class Message>
   void say(Message message);
+  bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
   KnownObject* find(ObjectHandle object);
-  KnownObject& remember(ObjectHandle object);
   bool take_frame(Bytes frame);
   bool take_message(Reader& reader);
   bool take_membership(Reader& reader, std::uint8_t kind);
@@ -115,6 +119,7 @@ class Ambassador {
   bool take_federate(Reader& reader, std::uint8_t kind);
   bool take_object(Reader& reader, std::uint8_t kind);
   bool take_scope(Reader& reader, std::uint8_t kind);
+  bool take_stamp(Reader& reader);
   bool take_updates(Reader& reader);
   bool take_interaction(Reader& reader);
   void lose(std::string_view why);
@@ -126,8 +131,9 @@ class Ambassador {
   Phase phase_ = Phase::idle;
   FederateHandle federate_;
   std::uint32_t object_block_ = 0, objects_registered_ = 0;
-  std::vector<std::vector<KnownObject>> known_;  ///< by block, then by number within it
-  std::vector<im::Region> regions_;              ///< by handle
+  std::vector<KnownObject> own_;    ///< registered here, by number within our block
+  ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
+  std::vector<im::Region> regions_;  ///< by handle
   std::vector<std::uint32_t> free_regions_;
   std::vector<std::byte> region_records_;
   FrameWriter outgoing_;
@@ -138,9 +144,12 @@ class Ambassador {
     ObjectClassHandle object_class;
     AttributeSet attributes;
     Stamp stamp;
-    std::uint32_t value_size = 0, count = 0;
-    std::size_t at = 0;  ///< where its message starts
+    std::uint32_t last_object = 0;
   } open_;
+  Stamp said_stamp_;                   ///< the last one said
+  std::uint64_t stamped_frame_ = 0;    ///< the frame in which it was said: a stamp is good for its frame
+  std::optional<Stamp> heard_stamp_;   ///< of the frame being read
+  std::vector<std::byte> coded_, decoded_;
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
   bool has_clock_ = false, has_said_ = false, has_heard_ = false;
   AmbassadorCounters counters_;

@@ -3,6 +3,7 @@
 
 #include "rti/ambassador.h"
 #include "rti/message.h"
+#include "rti/update_block.h"
 
 namespace rink::rti {
 
@@ -25,6 +26,7 @@ void Ambassador::lose(std::string_view why) {
 
 bool Ambassador::take_frame(Bytes frame) {
   ++counters_.frames_received;
+  heard_stamp_.reset();
   Reader reader(frame);
   while (!reader.is_at_end() && phase_ != Phase::ended)
     if (!take_message(reader)) return false;
@@ -47,6 +49,7 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::remove_object: return take_object(reader, kind);
     case MessageKind::in_scope:
     case MessageKind::out_of_scope: return take_scope(reader, kind);
+    case MessageKind::stamp: return take_stamp(reader);
     case MessageKind::updates: return take_updates(reader);
     case MessageKind::interaction: return take_interaction(reader);
     default: return false;
@@ -98,7 +101,7 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
     if (!exchange(reader, message)) return false;
     KnownObject* known = find({message.object});
     if (known == nullptr || known->is_own) return false;
-    *known = {};
+    known_.erase({message.object});
     ++counters_.objects_removed;
     callbacks_.remove_object_instance({message.object});
     return true;
@@ -106,8 +109,8 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
   DiscoverObjectMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
-  if (message.object_class >= fom_.object_classes().size() || object.value / object_block >= object_block_max || find(object) != nullptr) return false;
-  remember(object) = {message.object_class, false};
+  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) || known_.find(object) != nullptr) return false;
+  known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;
   callbacks_.discover_object_instance(object, {message.object_class}, message.name);
   return true;
@@ -122,26 +125,34 @@ bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
+bool Ambassador::take_stamp(Reader& reader) {
+  StampMessage message;
+  if (!exchange(reader, message)) return false;
+  heard_stamp_ = message.stamp;
+  return true;
+}
+
 bool Ambassador::take_updates(Reader& reader) {
   UpdatesMessage message;
-  if (!exchange(reader, message) || message.object_class >= fom_.object_classes().size()) return false;
-  const ObjectClassHandle object_class{message.object_class};
+  if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
   const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(object_class).includes(attributes)) return false;
-  if (fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies) != message.value_size) return false;
-  const bool is_variable = message.value_size == UpdatesMessage::varies;
-  Reader records(message.records);
-  for (std::uint32_t i = 0; i < message.count && phase_ == Phase::joined; ++i) {
-    std::uint32_t object = 0, size = message.value_size;
-    Bytes values;
-    if (!records.number(object) || (is_variable && !records.number(size)) || !records.rest(values, size)) return false;
-    if (is_variable && !fom_.values_fit(object_class, attributes, values)) return false;
+  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return false;
+  const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
+  const bool has_codec = is_coded(object_class, attributes);
+  const Stamp stamp = *heard_stamp_;
+  const bool is_read = read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
     const KnownObject* known = find({object});
     if (known == nullptr || known->object_class != message.object_class) return false;
+    if (has_codec) {
+      decoded_.clear();
+      if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
+      values = decoded_;
+    }
     ++counters_.updates_reflected;
-    callbacks_.reflect_attribute_values({object}, attributes, values, message.stamp);
-  }
-  return phase_ != Phase::joined || records.is_at_end();
+    callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
+    return phase_ == Phase::joined;
+  });
+  return is_read || phase_ != Phase::joined;
 }
 
 bool Ambassador::take_interaction(Reader& reader) {

@@ -62,4 +62,11 @@ bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle obje
   return parts_->federates_[federate_slot].handle == federate && parts_->interest_.of(federate_slot).in_scope.contains(slot);
 }
 
+void FederationExecution::list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const {
+  if (federate.value >= parts_->slot_of_handle_.size()) return;
+  const std::uint32_t federate_slot = parts_->slot_of_handle_[federate.value];
+  if (parts_->federates_[federate_slot].handle != federate) return;
+  parts_->interest_.of(federate_slot).in_scope.for_each([&](ObjectSlot slot) { objects.push_back(parts_->objects_[slot].handle); });
+}
+
 }  // namespace rink::rti

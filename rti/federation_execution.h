@@ -43,6 +43,9 @@ struct FederationSettings {
 
 struct FederationCounters {
   std::uint64_t bytes_received = 0, bytes_sent = 0;      ///< payload, frame headers included
+  /// Of `bytes_sent`: what tells who is in scope (discoveries, entries, exits, removals), the state of what came into scope, updates, and interactions; the rest is
+  /// frame headers, membership, synchronisation and heartbeats. Interactions and removals count when they are queued.
+  std::uint64_t scope_bytes_sent = 0, entry_bytes_sent = 0, update_bytes_sent = 0, interaction_bytes_sent = 0;
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_received = 0, updates_sent = 0;  ///< records; one sent to n federates counts n times
   std::uint64_t interactions_received = 0, interactions_sent = 0;
@@ -86,6 +89,8 @@ class FederationExecution {
   std::size_t object_count() const;
   /// True if `federate` is told of `object` since the last match; for tests against brute force.
   bool is_in_scope(FederateHandle federate, ObjectHandle object) const;
+  /// Appends every object that `federate` is told of since the last match, in no particular order.
+  void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
   const FederationCounters& counters() const;
   const im::Filter& filter() const;
 

@@ -3,58 +3,47 @@
 #include <cstring>
 
 #include "rti/federation_parts.h"
+#include "rti/update_block.h"
 
 namespace rink::rti {
 
 namespace {
 
-/// A block of updates that grows at the end of `bytes`; completed by its destructor, nothing if it stayed empty.
+/// A block of updates whose values are written in place; completed by its destructor, nothing if it stayed empty.
 class UpdatesBlock {
  public:
-  UpdatesBlock(std::vector<std::byte>& bytes, const Fom& fom) : bytes_(bytes), fom_(fom) {}
+  explicit UpdatesBlock(std::vector<std::byte>& bytes) : bytes_(bytes) {}
   ~UpdatesBlock() { close(); }
   UpdatesBlock(const UpdatesBlock&) = delete;
   UpdatesBlock& operator=(const UpdatesBlock&) = delete;
 
-  /// Appends what `put` appends as the values of one object.
+  /// Appends what `put` appends as the coded values of one object.
   template <class Put>
-  void append(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, ObjectHandle object, Put put) {
-    if (count_ == 0 || object_class != object_class_ || attributes != attributes_ || stamp != stamp_) begin(object_class, attributes, stamp);
-    Writer writer(bytes_);
-    std::uint32_t size = 0;
-    writer.number(object.value);
-    if (value_size_ == UpdatesMessage::varies) writer.number(size);
-    const std::size_t start = bytes_.size();
+  void append(std::uint16_t object_class, AttributeSet attributes, ObjectHandle object, Put put) {
+    if (!is_open_ || object_class != header_.object_class || attributes.bits != header_.attributes) begin(object_class, attributes);
+    std::uint64_t step = handle_step(previous_, object.value);
+    Writer(bytes_).varint(step);
+    previous_ = object.value;
     put();
-    size = static_cast<std::uint32_t>(bytes_.size() - start);
-    if (value_size_ == UpdatesMessage::varies) std::memcpy(bytes_.data() + start - sizeof size, &size, sizeof size);
-    ++count_;
   }
 
  private:
-  void begin(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp) {
+  void begin(std::uint16_t object_class, AttributeSet attributes) {
     close();
-    object_class_ = object_class;
-    attributes_ = attributes;
-    stamp_ = stamp;
-    value_size_ = fom_.values_size({object_class}, attributes).value_or(UpdatesMessage::varies);
-    at_ = bytes_.size();
-    bytes_.resize(at_ + UpdatesMessage::header_size);
+    header_ = {object_class, attributes.bits};
+    write(bytes_, header_);
+    previous_ = 0;
+    is_open_ = true;
   }
   void close() {
-    if (count_ == 0) return;
-    write_updates_header(bytes_.data() + at_, object_class_, attributes_, stamp_, value_size_, count_,
-                         static_cast<std::uint32_t>(bytes_.size() - at_ - UpdatesMessage::header_size));
-    count_ = 0;
+    if (is_open_) bytes_.push_back(std::byte{0});
+    is_open_ = false;
   }
 
   std::vector<std::byte>& bytes_;
-  const Fom& fom_;
-  std::uint16_t object_class_ = 0;
-  AttributeSet attributes_;
-  Stamp stamp_;
-  std::uint32_t value_size_ = 0, count_ = 0;
-  std::size_t at_ = 0;
+  UpdatesMessage header_;
+  std::uint32_t previous_ = 0;
+  bool is_open_ = false;
 };
 
 /// True if every member of the run is in scope.
@@ -98,6 +87,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   Federate& federate = federates_[slot];
   scratch_.resize(frame_header_size);
   scratch_taken_ = 0;
+  frame_stamp_.reset();
   pieces_.clear();
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   write_scope_events(slot);
@@ -117,8 +107,15 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   send_pieces(federate, outlet);
 }
 
+void FederationExecution::Parts::write_stamp(const Stamp& stamp) {
+  if (frame_stamp_ == stamp) return;
+  frame_stamp_ = stamp;
+  say(scratch_, StampMessage{stamp});
+}
+
 void FederationExecution::Parts::write_scope_events(std::uint32_t slot) {
   FederateInterest& interest = interest_.of(slot);
+  const std::size_t before = scratch_.size();
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
     if (!object.is_alive) continue;  // it came and went between two flushes, or its removal is on its way
@@ -130,24 +127,36 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot) {
     interest.known.insert(event.slot);
     say(scratch_, InScopeMessage{object.handle.value});
   }
+  counters_.scope_bytes_sent += scratch_.size() - before;
 }
 
+/// Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
 void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
   if (!interest.has_fresh) return;
-  UpdatesBlock block(scratch_, fom_);
+  const std::size_t before = scratch_.size();
+  std::optional<UpdatesBlock> block;
   interest.fresh.for_each([&](ObjectSlot fresh) {
     const Object& object = objects_[fresh];
     if (!object.is_alive) return;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
     if (set.is_empty()) return;
-    block.append(object.object_class, set, object.stamp, object.handle, [&] { objects_.append(fresh, set, scratch_); });
+    const Stamp& stamp = federates_[object.owner].newest;
+    if (!block || frame_stamp_ != stamp) {
+      block.reset();
+      write_stamp(stamp);
+      block.emplace(scratch_);
+    }
+    block->append(object.object_class, set, object.handle, [&] { objects_.append(fresh, set, scratch_); });
     ++counters_.updates_sent;
   });
+  block.reset();
+  counters_.entry_bytes_sent += scratch_.size() - before;
 }
 
 void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
+  const std::size_t before = scratch_.size();
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const UpdateRun& run = runs_[i];
     if (run.owner == slot) continue;
@@ -159,40 +168,43 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
     if (wanted.is_empty()) continue;
     if (wanted != run.attributes) gather_cut_run(run, interest);
     else if (!interest.has_fresh && is_all_in_scope(run, interest.in_scope)) {
+      write_stamp(run.stamp);
       add_shared(run.message);
       counters_.updates_sent += run.slots.size();
     } else {
       gather_run(run, interest);
     }
   }
+  counters_.update_bytes_sent += scratch_.size() - before;
 }
 
 void FederationExecution::Parts::gather_run(const UpdateRun& run, const FederateInterest& interest) {
-  const std::size_t at = scratch_.size();
-  std::uint32_t count = 0;
-  scratch_.resize(at + UpdatesMessage::header_size);
+  std::optional<RecordWriter> writer;
   for_each_record(run, interest, [&](std::size_t index) {
-    const Bytes record = run.record(index);
-    scratch_.insert(scratch_.end(), record.begin(), record.end());
-    ++count;
+    if (!writer) {
+      write_stamp(run.stamp);
+      say(scratch_, UpdatesMessage{run.object_class, run.attributes.bits});
+      writer.emplace(scratch_);
+    }
+    writer->add(run.records[index].handle, run.values(index));
+    ++counters_.updates_sent;
   });
-  if (count == 0) return scratch_.resize(at);
-  write_updates_header(scratch_.data() + at, run.object_class, run.attributes, run.stamp, run.value_size, count,
-                       static_cast<std::uint32_t>(scratch_.size() - at - UpdatesMessage::header_size));
-  counters_.updates_sent += count;
 }
 
 void FederationExecution::Parts::gather_cut_run(const UpdateRun& run, const FederateInterest& interest) {
-  UpdatesBlock block(scratch_, fom_);
-  const std::size_t value_at = run.value_size == UpdatesMessage::varies ? 8 : 4;
+  const ObjectClass& object_class = fom_.at(ObjectClassHandle{run.object_class});
+  std::optional<UpdatesBlock> block;
   for_each_record(run, interest, [&](std::size_t index) {
     const AttributeSet wanted = interest.told(run.slots[index], run.object_class) & run.attributes;
     if (wanted.is_empty()) return;
-    const Bytes values = run.record(index).subspan(value_at);
-    block.append(run.object_class, wanted, run.stamp, objects_[run.slots[index]].handle, [&] {
+    if (!block) {
+      write_stamp(run.stamp);
+      block.emplace(scratch_);
+    }
+    block->append(run.object_class, wanted, {run.records[index].handle}, [&] {
       for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
         const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
-        const Bytes value = fom_.value({run.object_class}, run.attributes, attribute, values);
+        const Bytes value = coded_value(object_class, run.attributes, attribute, run.values(index));
         scratch_.insert(scratch_.end(), value.begin(), value.end());
       }
     });
@@ -214,6 +226,7 @@ void FederationExecution::Parts::add_shared(Bytes bytes) {
   }
   take_scratch();
   pieces_.push_back({bytes, 0, 0});
+  counters_.update_bytes_sent += bytes.size();
 }
 
 void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet) {

@@ -30,6 +30,8 @@ class FederationExecution::Parts {
     std::vector<bool> published_interactions, subscribed_interactions;    ///< by interaction class
     std::vector<std::byte> control;  ///< messages that go out before this flush's updates
     std::vector<std::byte> tail;     ///< and after them
+    std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
+    Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
     double last_said = 0.0;
   };
   enum class Phase : std::uint8_t { unknown, connected, joined };
@@ -85,8 +87,9 @@ class FederationExecution::Parts {
   Outcome register_object(std::uint32_t slot, Reader& reader);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   void delete_object(ObjectSlot object);
+  Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
-  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, Bytes record, ObjectHandle handle, Bytes values);
+  Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
 
   // What goes out (federation_flush.cpp).
@@ -97,6 +100,7 @@ class FederationExecution::Parts {
   void gather_runs(std::uint32_t slot);
   void gather_run(const UpdateRun& run, const FederateInterest& interest);
   void gather_cut_run(const UpdateRun& run, const FederateInterest& interest);
+  void write_stamp(const Stamp& stamp);
   void send_pieces(Federate& federate, Outlet& outlet);
 
   template <class Message>
@@ -128,6 +132,7 @@ class FederationExecution::Parts {
     std::size_t scratch_from = 0, scratch_to = 0;
   };
   std::vector<std::byte> scratch_;
+  std::optional<Stamp> frame_stamp_;  ///< of the updates in the frame that grows in `scratch_`, once it was written
   std::vector<Piece> pieces_;
   std::size_t scratch_taken_ = 0;  ///< up to here `scratch_` is in `pieces_`
   std::vector<Bytes> gathered_;

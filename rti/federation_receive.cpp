@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "rti/federation_parts.h"
+#include "rti/update_block.h"
 
 namespace rink::rti {
 
@@ -27,6 +28,7 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
 
 Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   ++counters_.frames_received;
+  if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].stamp.reset();  // a stamp is good for its frame
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
     if (connections_[id].phase == Phase::joined) {
@@ -66,6 +68,7 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::delete_region: return take_region(slot, kind, reader);
     case MessageKind::register_object:
     case MessageKind::delete_object:
+    case MessageKind::stamp:
     case MessageKind::updates:
     case MessageKind::interaction: return take_object(slot, kind, reader);
     default: return Violation::malformed;
@@ -158,6 +161,7 @@ Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind 
   if (kind == MessageKind::register_object) return register_object(slot, reader);
   if (kind == MessageKind::delete_object) return delete_object(slot, reader);
   if (kind == MessageKind::updates) return take_updates(slot, reader);
+  if (kind == MessageKind::stamp) return take_stamp(slot, reader);
   return take_interaction(slot, reader);
 }
 
@@ -190,40 +194,44 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
-    say(federates_[i].tail, RemoveObjectMessage{objects_[object].handle.value});
+    RemoveObjectMessage removal{objects_[object].handle.value};
+    say(federates_[i].tail, removal);
+    counters_.scope_bytes_sent += measure(removal);
   }
   objects_.erase(object);
 }
 
+Outcome FederationExecution::Parts::take_stamp(std::uint32_t slot, Reader& reader) {
+  StampMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  federates_[slot].stamp = message.stamp;
+  return std::nullopt;
+}
+
 Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& reader) {
   UpdatesMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
+  if (!exchange(reader, message) || !federates_[slot].stamp) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
   const AttributeSet attributes{message.attributes};
   if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty()) return Violation::unknown_name;
   if (!federates_[slot].published[message.object_class].includes(attributes)) return Violation::undeclared;
-  if (fom_.values_size(object_class, attributes).value_or(UpdatesMessage::varies) != message.value_size) return Violation::malformed;
-  const bool is_variable = message.value_size == UpdatesMessage::varies;
-  Reader records(message.records);
-  for (std::uint32_t i = 0; i < message.count; ++i) {
-    const Bytes start = message.records.last(records.left());
-    std::uint32_t object = 0, size = message.value_size;
-    Bytes values;
-    if (!records.number(object) || (is_variable && !records.number(size)) || size > values_max || !records.rest(values, size)) return Violation::malformed;
-    if (is_variable && !fom_.values_fit(object_class, attributes, values)) return Violation::malformed;
-    if (const Outcome outcome = take_update(slot, message, start.first(start.size() - records.left()), {object}, values)) return outcome;
-  }
-  return records.is_at_end() ? Outcome() : Violation::malformed;
+  Outcome outcome;
+  const bool is_read = read_records(reader, fom_.at(object_class), attributes, [&](std::uint32_t handle, Bytes values) {
+    outcome = take_update(slot, message, {handle}, values);
+    return !outcome;
+  });
+  return is_read || outcome ? outcome : Violation::malformed;
 }
 
-Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, Bytes record, ObjectHandle handle, Bytes values) {
+Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values) {
   const ObjectSlot object = objects_.find(handle);
   if (object == no_object || objects_[object].object_class != message.object_class) return Violation::unknown_name;
   if (objects_[object].owner != slot) return Violation::not_owned;
-  const AttributeSet attributes{message.attributes};
-  objects_.store(object, attributes, values, message.stamp);
-  runs_.append(slot, object, objects_[object], attributes, message.stamp, message.value_size, record);
+  Federate& owner = federates_[slot];
+  owner.newest = *owner.stamp;
+  objects_.store(object, AttributeSet(message.attributes), values);
+  runs_.append(slot, object, objects_[object], AttributeSet(message.attributes), owner.newest, values);
   ++counters_.updates_received;
   return std::nullopt;
 }
@@ -239,6 +247,7 @@ Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader&
   for (const std::uint32_t receiver : interaction_subscribers_[message.interaction_class]) {
     if (receiver == slot || (only != FederateHandle::none && federates_[receiver].handle.value != only)) continue;
     say(federates_[receiver].tail, message);
+    counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;
   }
   return std::nullopt;

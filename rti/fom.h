@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rti/attribute_codec.h"
 #include "rti/attribute_set.h"
 #include "rti/bytes.h"
 #include "rti/handles.h"
@@ -30,6 +32,7 @@ struct Attribute {
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
   bool has_dimensions = false;        ///< regions apply to it
+  std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
 };
 
 struct Parameter {
@@ -52,13 +55,16 @@ struct InteractionClass {
   Order order = Order::receive;
 };
 
-/// Immutable once loaded; handles are indices into its arrays, equal for all who loaded an equal model.
+/// Immutable once loaded and given its codecs; handles are indices into its arrays, equal for all who loaded an equal model.
 class Fom {
  public:
   /// Throws `FileError`.
   static Fom load(const std::string& path);
   /// The same from text; `source` stands for the file's name in errors.
   static Fom parse(std::string_view xml, const std::string& source);
+
+  /// From now on values of `data_type` travel as `codec` says. Before the model is handed to anybody. Throws `FileError` if no attribute is of that type.
+  void use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec);
 
   const std::string& name() const { return name_; }
   const std::vector<ObjectClass>& object_classes() const { return object_classes_; }
@@ -89,7 +95,7 @@ class Fom {
   /// Where the value of `attribute` stands in `values` of `set` (its length word included if its size varies); values must fit.
   Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const;
 
-  /// Of what matters to a conversation: names, order, types, sizes, dimensions; not of comments, layout or semantics. FNV-1a.
+  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs; not of comments, layout or semantics. FNV-1a.
   std::uint64_t hash() const { return hash_; }
 
  private:

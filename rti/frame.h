@@ -27,6 +27,7 @@ class FrameWriter {
   }
   /// True if the frame at the end takes `size` more bytes.
   bool has_room(std::size_t size) const { return is_open_ && payload_size() + size <= payload_max_; }
+  bool is_open() const { return is_open_; }
   std::vector<std::byte>& buffer() { return bytes_; }
   /// The frame's length becomes true again.
   void appended() {
@@ -37,6 +38,7 @@ class FrameWriter {
   void close_frame() { is_open_ = false; }
   Bytes bytes() const { return bytes_; }
   std::uint64_t frame_count() const { return frame_count_; }
+  std::size_t memory_bytes() const { return bytes_.capacity(); }
   void clear() {
     bytes_.clear();
     is_open_ = false;
@@ -88,6 +90,7 @@ class FrameReader {
   /// True if it was a length beyond the limit that stopped `receive`.
   bool is_oversized() const { return is_oversized_; }
   std::size_t waiting_bytes() const { return partial_.size(); }
+  std::size_t memory_bytes() const { return partial_.capacity() + complete_.capacity(); }
 
  private:
   static std::size_t length(Bytes bytes) {

@@ -195,16 +195,17 @@ bool Interest::uniform_classes(const FederateInterest& interest, std::vector<Att
 
 void Interest::reconsider_all(FederateInterest& interest) {
   interest.is_changed = false;
-  std::vector<AttributeSet> by_class, by_object(objects_.slot_count());
+  std::vector<AttributeSet> by_class, by_object;
   const bool is_uniform = uniform_classes(interest, by_class);
+  if (!is_uniform) by_object.resize(objects_.slot_count());  // else four bytes per object of the world would come and go with every client, and leave holes in the heap
   for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
     const AttributeSet was = interest.told(slot, objects_[slot].object_class);
-    by_object[slot] = wanted(interest, slot);
-    settle(interest, slot, was, by_object[slot]);
+    const AttributeSet is = wanted(interest, slot);
+    settle(interest, slot, was, is);
+    if (!is_uniform) by_object[slot] = is;
   }
   interest.is_uniform = is_uniform;
   interest.by_class = std::move(by_class);
-  if (is_uniform) by_object = {};
   interest.by_object = std::move(by_object);
 }
 

@@ -16,10 +16,10 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 1;
+inline constexpr std::uint16_t protocol_version = 2;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
-inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update [bytes]
+inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
 inline constexpr std::uint32_t region_max = 1u << 18;        ///< regions of one federate
 /// An object handle is the block that the RTI gave its owner, times `object_block`, plus the owner's own count.
 inline constexpr std::uint32_t object_block = 1u << 18;
@@ -31,6 +31,7 @@ enum class MessageKind : std::uint8_t {
   join = 1, resign, heartbeat, register_synchronization_point, synchronization_point_achieved, watch_federates,
   publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
   register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
+  stamp,
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
@@ -134,7 +135,7 @@ struct ObjectMessage {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, ObjectMessage<k>& message) {
-  return stream.number(message.object) && stream.number(message.object_class) && stream.text(message.name, text_max);
+  return stream.varint(message.object) && stream.varint(message.object_class) && stream.text(message.name, text_max);
 }
 using RegisterObjectMessage = ObjectMessage<MessageKind::register_object>;
 using DiscoverObjectMessage = ObjectMessage<MessageKind::discover_object>;
@@ -146,43 +147,39 @@ struct ObjectHandleMessage {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, ObjectHandleMessage<k>& message) {
-  return stream.number(message.object);
+  return stream.varint(message.object);
 }
 using DeleteObjectMessage = ObjectHandleMessage<MessageKind::delete_object>;
 using RemoveObjectMessage = ObjectHandleMessage<MessageKind::remove_object>;
 using InScopeMessage = ObjectHandleMessage<MessageKind::in_scope>;
 using OutOfScopeMessage = ObjectHandleMessage<MessageKind::out_of_scope>;
 
-/// A block of updates of one class, attribute set and stamp, in both directions. `records` are, `count` times, an object handle (u32) and
-/// values of `value_size` bytes; if the size varies, `value_size` is all ones and a u32 with the size stands before each value.
-struct UpdatesMessage {
-  static constexpr MessageKind kind = MessageKind::updates;
-  static constexpr std::uint32_t varies = 0xffffffffu;
-  static constexpr std::size_t header_size = 1 + 2 + 4 + 16 + 4 + 4 + 4;
-  std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
-  Stamp stamp;
-  std::uint32_t value_size = 0;
-  std::uint32_t count = 0;
-  Bytes records;
-};
 template <class Stream>
 bool exchange(Stream& stream, Stamp& stamp) {
   return stream.finite(stamp.time) && stream.number(stamp.tag);
 }
+
+/// The stamp of all blocks of updates that follow it in its frame, in both directions.
+struct StampMessage {
+  static constexpr MessageKind kind = MessageKind::stamp;
+  static constexpr std::size_t size = 1 + 16;
+  Stamp stamp;
+};
 template <class Stream>
-bool exchange(Stream& stream, UpdatesMessage& message) {
-  if (!stream.number(message.object_class) || !stream.number(message.attributes) || !exchange(stream, message.stamp) ||
-      !stream.number(message.value_size) || !stream.number(message.count)) return false;
-  if (message.value_size != UpdatesMessage::varies && message.value_size > values_max) return false;
-  if (!stream.template bytes<std::uint32_t>(message.records, frame_max_to_federate)) return false;
-  if (message.value_size == UpdatesMessage::varies) return true;  // each record is checked as it is read
-  return message.records.size() == std::uint64_t{message.count} * (sizeof(std::uint32_t) + message.value_size);
+bool exchange(Stream& stream, StampMessage& message) {
+  return exchange(stream, message.stamp);
 }
 
-/// The header alone, kind included, over `header_size` bytes that are already there: blocks grow before their length is known.
-void write_updates_header(std::byte* at, std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size,
-                          std::uint32_t count, std::uint32_t records_size);
+/// Begins a block of updates of one class and attribute set, in both directions; its records follow until a zero (rti/update_block.h).
+struct UpdatesMessage {
+  static constexpr MessageKind kind = MessageKind::updates;
+  std::uint16_t object_class = 0;
+  std::uint32_t attributes = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, UpdatesMessage& message) {
+  return stream.varint(message.object_class) && stream.varint(message.attributes);
+}
 
 /// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the sender.
 struct InteractionMessage {

@@ -8,13 +8,21 @@
 
 namespace rink::rti {
 
+namespace {
+
+/// True if all values take the same number of bytes on their way.
+bool is_fixed(const Attribute& attribute) { return attribute.size && !attribute.codec; }
+
+}  // namespace
+
 ObjectTable::ObjectTable(const Fom& fom) : fom_(fom) {
   for (const ObjectClass& each : fom.object_classes()) {
     Layout& layout = layouts_.emplace_back();
     for (const Attribute& attribute : each.attributes) {
       layout.offsets.push_back(layout.fixed_size);
-      layout.fixed_size += attribute.size.value_or(0);
-      layout.has_varying |= !attribute.size;
+      const std::optional<std::uint32_t> size = is_fixed(attribute) ? attribute.size : std::nullopt;
+      layout.fixed_size += size.value_or(0);
+      layout.has_varying |= !size;
     }
   }
 }
@@ -70,26 +78,25 @@ bool ObjectTable::was_registered(ObjectHandle handle) const {
   return block < slots_.size() && number < slots_[block].size() && slots_[block][number] != never;
 }
 
-void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes values, const Stamp& stamp) {
+void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
   Object& object = objects_[slot];
   const Layout& layout = layouts_[object.object_class];
   const ObjectClass& object_class = fom_.object_classes()[object.object_class];
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::size_t>(std::countr_zero(bits));
+    const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
+    const Attribute& attribute = object_class.attributes[index];
     std::size_t size = 0;
-    if (const auto fixed_size = object_class.attributes[index].size) {
-      size = *fixed_size;
-      if (size != 0) std::memcpy(object.fixed.data() + layout.offsets[index], values.data(), size);
+    if (is_fixed(attribute)) {
+      size = *attribute.size;
+      if (size != 0) std::memcpy(object.fixed.data() + layout.offsets[index], coded.data(), size);
     } else {
-      std::uint32_t length = 0;
-      std::memcpy(&length, values.data(), sizeof length);
-      size = sizeof length + length;
-      object.varying[index].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size));
+      const AttributeSet one(1u << index);
+      size = bits == one.bits ? coded.size() : coded_size(object_class, one, coded).value_or(0);  // the last one takes the rest
+      object.varying[index].assign(coded.begin(), coded.begin() + static_cast<std::ptrdiff_t>(size));
     }
-    values = values.subspan(size);
+    coded = coded.subspan(size);
   }
   object.valued = object.valued | set;
-  object.stamp = stamp;
 }
 
 void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const {
@@ -99,8 +106,8 @@ void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byt
   const ObjectClass& object_class = fom_.object_classes()[object.object_class];
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
     const auto index = static_cast<std::size_t>(std::countr_zero(bits));
-    const auto fixed_size = object_class.attributes[index].size;
-    const Bytes value = fixed_size ? Bytes(object.fixed).subspan(layout.offsets[index], *fixed_size) : Bytes(object.varying[index]);
+    const Attribute& attribute = object_class.attributes[index];
+    const Bytes value = is_fixed(attribute) ? Bytes(object.fixed).subspan(layout.offsets[index], *attribute.size) : Bytes(object.varying[index]);
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
 }

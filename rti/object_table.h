@@ -23,10 +23,9 @@ struct Object {
   bool is_filtered = false;          ///< the filter knows its region
   RegionHandle region;               ///< its owner's, or empty
   AttributeSet valued;               ///< attributes that have a value
-  Stamp stamp;                       ///< of the latest update
   std::string name;
-  std::vector<std::byte> fixed;      ///< values of fixed size, at the class's offsets
-  std::vector<std::vector<std::byte>> varying;  ///< values of varying size with their length words, by attribute
+  std::vector<std::byte> fixed;      ///< coded values of fixed size, at the class's offsets
+  std::vector<std::vector<std::byte>> varying;  ///< coded values of varying size, by attribute
 };
 
 /// Latest values serve late joiners and those who come into scope; storing one touches one object only.
@@ -54,9 +53,9 @@ class ObjectTable {
       if (slots_[block][i] < gone) visit(slots_[block][i]);
   }
 
-  /// `values` must fit `set`.
-  void store(ObjectSlot slot, AttributeSet set, Bytes values, const Stamp& stamp);
-  /// Appends the values of `set`, all of which must be valued.
+  /// `coded` must be the values of `set` as they travel.
+  void store(ObjectSlot slot, AttributeSet set, Bytes coded);
+  /// Appends the coded values of `set`, all of which must be valued.
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
 
  private:

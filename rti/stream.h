@@ -15,6 +15,15 @@ namespace rink::rti {
 
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian and values are copied as they lie in memory");
 
+/// Numbers whose small values are short: seven bits a byte, least significant first, the top bit set in all but the last.
+inline constexpr std::size_t varint_size_max = 10;
+inline std::byte* put_varint(std::byte* at, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
+  *at++ = static_cast<std::byte>(value);
+  return at;
+}
+inline std::size_t varint_size(std::uint64_t value) { return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7; }
+
 /// Appends to a buffer; asserts the ranges, for what we write is ours.
 class Writer {
  public:
@@ -26,6 +35,12 @@ class Writer {
     const std::size_t end = bytes_.size();
     bytes_.resize(end + sizeof value);
     std::memcpy(bytes_.data() + end, &value, sizeof value);
+    return true;
+  }
+  template <class Number>
+  bool varint(Number& value) {
+    std::byte bytes[varint_size_max];
+    bytes_.insert(bytes_.end(), bytes, put_varint(bytes, value));
     return true;
   }
   template <class Number>
@@ -67,6 +82,7 @@ class Reader {
   explicit Reader(Bytes bytes) : bytes_(bytes) {}
   bool is_at_end() const { return bytes_.empty(); }
   std::size_t left() const { return bytes_.size(); }
+  Bytes rest() const { return bytes_; }
 
   template <class Number>
   bool number(Number& value) {
@@ -74,6 +90,20 @@ class Reader {
     std::memcpy(&value, bytes_.data(), sizeof value);
     bytes_ = bytes_.subspan(sizeof value);
     return true;
+  }
+  /// False if the number does not fit `Number`.
+  template <class Number>
+  bool varint(Number& value) {
+    std::uint64_t whole = 0;
+    for (unsigned shift = 0; shift < 64 && shift / 7 < bytes_.size(); shift += 7) {
+      const auto byte = static_cast<std::uint64_t>(bytes_[shift / 7]);
+      whole |= (byte & 0x7f) << shift;
+      if (byte >= 0x80) continue;
+      bytes_ = bytes_.subspan(shift / 7 + 1);
+      value = static_cast<Number>(whole);
+      return value == whole;
+    }
+    return false;
   }
   template <class Number>
   bool range(Number& value, std::uint64_t max) {
@@ -111,6 +141,11 @@ class Measurer {
   template <class Number>
   bool number(Number& value) {
     size_ += sizeof value;
+    return true;
+  }
+  template <class Number>
+  bool varint(Number& value) {
+    size_ += varint_size(value);
     return true;
   }
   template <class Number>

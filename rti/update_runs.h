@@ -11,38 +11,39 @@ namespace rink::rti {
 
 /// Updates of one owner, class, attribute set and stamp; at most one of each object.
 struct UpdateRun {
+  /// One object's values as they travel, in `message`.
+  struct Record {
+    std::uint32_t handle = 0, at = 0, size = 0;
+  };
   std::uint32_t owner = 0;
   std::uint16_t object_class = 0;
   AttributeSet attributes;
   Stamp stamp;
-  std::uint32_t value_size = 0;        ///< or `UpdatesMessage::varies`
-  std::vector<std::byte> message;      ///< the whole message as it goes on the wire; true after `seal`
+  std::vector<std::byte> message;      ///< the whole message as it goes on the wire, but for the zero that `seal` puts at its end
   std::vector<ObjectSlot> slots;       ///< of the records, in their order
-  std::vector<std::uint32_t> offsets;  ///< of the records in `message`
+  std::vector<Record> records;
   Bitmap members;                      ///< the same slots
   std::size_t first_word = 0, last_word = 0;  ///< of `members` that may hold any
   std::vector<std::uint32_t> record_of;       ///< by slot: index into `slots`; for members only, after `seal` of runs longer than `short_run`
   static constexpr std::size_t short_run = 8;
 
-  Bytes record(std::size_t index) const {
-    const std::size_t end = index + 1 < offsets.size() ? offsets[index + 1] : message.size();
-    return Bytes(message).subspan(offsets[index], end - offsets[index]);
-  }
+  Bytes values(std::size_t index) const { return Bytes(message).subspan(records[index].at, records[index].size); }
 };
 
 /// Collects records in the order in which they came, in as few runs as that order allows. Keeps its memory from tick to tick.
 class UpdateRuns {
  public:
-  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size, Bytes record);
-  /// Completes the headers; no `append` may follow before `clear`.
+  /// `values` as they travel.
+  void append(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, Bytes values);
+  /// Completes the messages; no `append` may follow before `clear`.
   void seal();
   void clear();
   std::size_t size() const { return size_; }
   const UpdateRun& operator[](std::size_t index) const { return runs_[index]; }
 
  private:
-  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size);
-  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes, const Stamp& stamp, std::uint32_t value_size);
+  UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp);
+  UpdateRun& begin(std::uint32_t owner, const Object& object, AttributeSet attributes, const Stamp& stamp);
 
   std::vector<UpdateRun> runs_;
   std::size_t size_ = 0;

@@ -1,5 +1,10 @@
-// TCP connections on Asio's reactor: how they come about, wait and end.
+// TCP connections: how they come about, wait and end.
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
 
 #include <cerrno>
 
@@ -10,7 +15,12 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::size_t handlers_per_poll = 4096;  ///< connections opened, closed or read in one poll
+constexpr std::size_t events_per_poll = 4096;   ///< connections opened, closed or read in one poll, more where many are accepted
+constexpr std::size_t accepted_per_event = 64;
+constexpr std::uint64_t listener_mark = 1ull << 32;  ///< numbers from here on are listening sockets, those below are connections
+constexpr std::uint64_t pause_mark = ~0ull;
+
+asio::error_code last_error() { return {errno, asio::system_category()}; }
 
 using asio::ip::tcp;
 
@@ -32,9 +42,15 @@ std::string place(const std::string& address, std::uint16_t port) {
 
 }  // namespace
 
+TcpTransport::Core::Core(const TcpSettings& settings)
+    : settings_(settings), pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)), read_buffer_(settings.read_buffer) {
+  readiness_.watch(pause_.number(), pause_mark, false);
+}
+
 tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
   asio::error_code error;
-  tcp::resolver resolver(context_);
+  asio::io_context context;
+  tcp::resolver resolver(context);
   const auto found = resolver.resolve(address, std::to_string(port), error);
   if (error) fail(error, "no such address " + place(address, port));
   return found.begin()->endpoint();
@@ -42,87 +58,104 @@ tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint1
 
 std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16_t port) {
   const tcp::endpoint endpoint = resolve(address, port);
-  auto acceptor = std::make_unique<tcp::acceptor>(context_);
+  asio::io_context context;
+  tcp::acceptor acceptor(context);
   asio::error_code error;
-  acceptor->open(endpoint.protocol(), error);
-  if (!error) acceptor->set_option(tcp::acceptor::reuse_address(true), error);  // past connections in TIME_WAIT don't hold the port
-  if (!error) acceptor->bind(endpoint, error);
-  if (!error) acceptor->listen(4096, error);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);  // past connections in TIME_WAIT don't hold the port
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(4096, error);
+  if (!error) acceptor.native_non_blocking(true, error);
   if (error) fail(error, "can't listen at " + place(address, port));
-  acceptors_.push_back(std::move(acceptor));
-  accept(*acceptors_.back());
-  return acceptors_.back()->local_endpoint().port();
+  const std::uint16_t bound = acceptor.local_endpoint().port();
+  listening_.emplace_back(acceptor.release());
+  readiness_.watch(listening_.back().number(), listener_mark + listening_.size() - 1, false);
+  return bound;
 }
 
 ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16_t port) {
   const tcp::endpoint endpoint = resolve(address, port);
-  Peer& peer = add();
+  File file(::socket(endpoint.protocol().family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, IPPROTO_TCP));
+  const asio::error_code no_socket = last_error();
+  if (!file) fail(no_socket, "can't connect to " + place(address, port));
+  Peer& peer = add(std::move(file));
   peer.place = place(address, port);
-  asio::error_code error;
-  peer.socket.open(endpoint.protocol(), error);
-  if (error) {
-    peers_.back().reset();
-    fail(error, "can't connect to " + place(address, port));
-  }
-  peer.socket.async_connect(endpoint, [this, id = peer.id](const asio::error_code& failure) {
-    Peer* connected = find(id);
-    if (connected == nullptr || connected->is_leaving) return;
-    if (failure) return end(*connected, close_reason_of(failure), "can't connect to " + connected->place + ": " + failure.message());
-    opened(*connected);
-  });
+  int result = 0;
+  do result = ::connect(peer.file.number(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
+  while (result < 0 && errno == EINTR);
+  const asio::error_code error = last_error();
+  // Watched only from here on: a socket that nobody has connected yet would be told as ended.
+  if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN && error.value() != EALREADY)
+    end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+  else
+    readiness_.watch(peer.file.number(), peer.id, true);
   return peer.id;
 }
 
-TcpTransport::Core::Peer& TcpTransport::Core::add() {
-  peers_.push_back(std::make_unique<Peer>(context_, static_cast<ConnectionId>(peers_.size())));
+TcpTransport::Core::Peer& TcpTransport::Core::add(File file) {
+  peers_.push_back(std::make_unique<Peer>(static_cast<ConnectionId>(peers_.size())));
+  peers_.back()->file = std::move(file);
   last_counters_.emplace_back();
   return *peers_.back();
 }
 
-void TcpTransport::Core::accept(tcp::acceptor& acceptor) {
-  acceptor.async_accept([this, &acceptor](const asio::error_code& error, tcp::socket socket) {
-    if (!error) {
-      Peer& peer = add();
-      peer.socket = std::move(socket);
-      opened(peer);
-    } else if (error == asio::error::no_descriptors) {
-      return accept_later(acceptor);
-    }
-    if (error != asio::error::operation_aborted) accept(acceptor);
-  });
+void TcpTransport::Core::accept(std::size_t listening) {
+  for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
+    File file(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (!file && (errno == EMFILE || errno == ENFILE)) return accept_later();
+    if (!file) return;  // none is left, or one that gave up before we came
+    Peer& peer = add(std::move(file));
+    readiness_.watch(peer.file.number(), peer.id, false);
+    opened(peer);
+  }
 }
 
-void TcpTransport::Core::accept_later(tcp::acceptor& acceptor) {
+void TcpTransport::Core::accept_later() {
   // The waiting connection would wake us at once and for ever: raise the limit, or let somebody leave first.
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
     limit.rlim_cur = limit.rlim_max;
     setrlimit(RLIMIT_NOFILE, &limit);
+    return;
   }
-  auto pause = std::make_shared<asio::steady_timer>(context_, std::chrono::milliseconds(100));
-  pause->async_wait([this, &acceptor, pause](const asio::error_code& error) {
-    if (!error) accept(acceptor);
-  });
+  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, false, false);
+  const itimerspec pause{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
+  timerfd_settime(pause_.number(), 0, &pause, nullptr);
+}
+
+void TcpTransport::Core::accept_again() {
+  std::uint64_t expirations = 0;
+  if (::read(pause_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
+  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, true, false);
+}
+
+void TcpTransport::Core::finish_connecting(Peer& peer) {
+  int failure = 0;
+  socklen_t size = sizeof failure;
+  ::getsockopt(peer.file.number(), SOL_SOCKET, SO_ERROR, &failure, &size);
+  const asio::error_code error(failure, asio::system_category());
+  if (error) return end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+  readiness_.change(peer.file.number(), peer.id, true, false);
+  opened(peer);
 }
 
 void TcpTransport::Core::opened(Peer& peer) {
-  asio::error_code ignored;
-  peer.socket.set_option(tcp::no_delay(true), ignored);
-  peer.socket.native_non_blocking(true, ignored);
+  const int yes = 1;
+  ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   peer.is_open = true;
   ++reported_;
   const ConnectionId id = peer.id;
+  if (!peer.queue.empty()) await_room(peer);  // sent before it was open
   listener_->on_open(id);
-  if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
 }
 
 void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& detail) {
   peer.counters = counters(peer.id);
   peer.counters.queued_bytes = 0;
   peer.is_leaving = true;
-  asio::error_code ignored;
-  if (reason == CloseReason::queue_full) peer.socket.set_option(asio::socket_base::linger(true, 0), ignored);  // its unread bytes leave the kernel too
-  peer.socket.close(ignored);
+  const linger at_once{.l_onoff = 1, .l_linger = 0};
+  if (reason == CloseReason::queue_full) ::setsockopt(peer.file.number(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);  // its unread bytes leave the kernel too
+  peer.file.close();
   peer.queue = {};
   peer.queue_from = 0;
   closed_.push_back({peer.id, reason, detail});
@@ -143,42 +176,36 @@ void TcpTransport::Core::report_closed() {
 
 void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
-  before_ = reported_;
-  context_.restart();
+  const std::uint64_t before = reported_;
   take_what_came();
-  if (reported_ == before_ && longest_wait.count() > 0) wait(longest_wait);
+  if (reported_ == before && longest_wait.count() > 0) {
+    readiness_.wait(longest_wait);
+    take_what_came();
+  }
   listener_ = nullptr;
 }
 
-void TcpTransport::Core::wait(std::chrono::nanoseconds longest_wait) {
-  // Asio waits in whole milliseconds unless a timer is set, which is the kernel's timerfd and exact. Setting one costs two system calls, so only
-  // the last milliseconds are waited for that way; most waits end by an event before.
-  using std::chrono::milliseconds;
-  timer_.expires_after(longest_wait);
-  const auto coarse = std::chrono::duration_cast<milliseconds>(longest_wait) - milliseconds(1);
-  if (coarse.count() > 0) {
-    context_.run_one_for(coarse);
-    report_closed();
+void TcpTransport::Core::take_what_came() {
+  // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost a server three ticks in four. What is left waits in
+  // the kernel, and the next poll begins with the peers that this one did not reach.
+  const std::uint64_t before = bytes_taken_;
+  for (std::size_t taken = 0; taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {
+    const auto event = readiness_.next();
+    if (!event) break;
+    take(*event);
   }
-  if (reported_ == before_) {
-    is_timer_due_ = false;
-    timer_.async_wait([this](const asio::error_code& error) { is_timer_due_ = !error; });
-    while (reported_ == before_ && !is_timer_due_) {
-      context_.run_one();
-      report_closed();
-    }
-    timer_.cancel();
-  }
-  take_what_came();
+  report_closed();
 }
 
-void TcpTransport::Core::take_what_came() {
-  // Asio's own poll() goes on while anything comes, so a peer that sends without pause would never let it return: a joined one at 250 MB/s cost a
-  // server three ticks in four. What is left waits in the kernel, and the next poll begins with the peers that this one did not reach.
-  const std::uint64_t before = bytes_taken_;
-  for (std::size_t taken = 0; taken < handlers_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken)
-    if (context_.poll_one() == 0) break;
-  report_closed();
+void TcpTransport::Core::take(const Readiness::Event& event) {
+  if (event.number == pause_mark) return accept_again();
+  if (event.number >= listener_mark) return accept(static_cast<std::size_t>(event.number - listener_mark));
+  const auto id = static_cast<ConnectionId>(event.number);
+  Peer* peer = find(id);
+  if (peer == nullptr || peer->is_leaving) return;
+  if (!peer->is_open) return finish_connecting(*peer);
+  if (event.is_writable && peer->is_writing) drain(*peer);
+  if (event.is_readable && !peer->is_leaving) read(*peer);
 }
 
 TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
@@ -188,8 +215,7 @@ TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
   if (peer->is_leaving) return counters;
   counters.queued_bytes = peer->queue.size() - peer->queue_from;
   if (!peer->is_open) return counters;
-  // The socket is const here only because asking it changes nothing.
-  if (const auto kernel = kernel_counters(const_cast<tcp::socket&>(peer->socket).native_handle())) {
+  if (const auto kernel = kernel_counters(peer->file.number())) {
     counters.kernel_bytes_sent = kernel->bytes_acknowledged;
     counters.kernel_bytes_received = kernel->bytes_received;
   }

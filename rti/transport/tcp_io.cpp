@@ -12,8 +12,6 @@ namespace rink::rti {
 
 namespace {
 
-using asio::ip::tcp;
-
 constexpr std::size_t segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
 constexpr std::size_t part_max = 256;       ///< of one write; more are taken in turns
 
@@ -25,29 +23,18 @@ CloseReason close_reason_of(const asio::error_code& error) {
   return CloseReason::failed;
 }
 
-void TcpTransport::Core::await_bytes(Peer& peer) {
-  peer.socket.async_wait(tcp::socket::wait_read, [this, id = peer.id](const asio::error_code& error) {
-    Peer* ready = find(id);
-    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
-    if (error) return end(*ready, close_reason_of(error), error.message());
-    read(*ready);
-  });
-}
-
 void TcpTransport::Core::read(Peer& peer) {
-  const ConnectionId id = peer.id;
-  const ssize_t size = ::recv(peer.socket.native_handle(), read_buffer_.data(), read_buffer_.size(), 0);
+  const ssize_t size = ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
   if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (size < 0) {
-    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return await_bytes(peer);
+    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return;
     const asio::error_code error(errno, asio::system_category());
     return end(peer, close_reason_of(error), error.message());
   }
   peer.counters.bytes_received += static_cast<std::uint64_t>(size);
   bytes_taken_ += static_cast<std::uint64_t>(size);
   ++reported_;
-  listener_->on_bytes(id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
-  if (Peer* still = find(id); still != nullptr && !still->is_leaving) await_bytes(*still);
+  listener_->on_bytes(peer.id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
 }
 
 std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, bool& is_broken) {
@@ -64,7 +51,7 @@ std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, 
     message.msg_iov = vectors.data();
     message.msg_iovlen = count;
     ssize_t sent = 0;
-    do sent = ::sendmsg(peer.socket.native_handle(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    do sent = ::sendmsg(peer.file.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     while (sent < 0 && errno == EINTR);
     if (sent < 0) {
       is_broken = errno != EAGAIN && errno != EWOULDBLOCK;
@@ -104,12 +91,7 @@ void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> pa
 void TcpTransport::Core::await_room(Peer& peer) {
   if (peer.is_writing) return;
   peer.is_writing = true;
-  peer.socket.async_wait(tcp::socket::wait_write, [this, id = peer.id](const asio::error_code& error) {
-    Peer* ready = find(id);
-    if (ready == nullptr || ready->is_leaving || error == asio::error::operation_aborted) return;
-    ready->is_writing = false;
-    drain(*ready);
-  });
+  readiness_.change(peer.file.number(), peer.id, true, true);
 }
 
 void TcpTransport::Core::drain(Peer& peer) {
@@ -123,10 +105,12 @@ void TcpTransport::Core::drain(Peer& peer) {
       peer.queue.erase(peer.queue.begin(), peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
       peer.queue_from = 0;
     }
-    return await_room(peer);
+    return;  // and waits on
   }
   peer.queue = {};
   peer.queue_from = 0;
+  peer.is_writing = false;
+  readiness_.change(peer.file.number(), peer.id, true, false);
 }
 
 void TcpTransport::Core::close(ConnectionId connection) {
@@ -139,9 +123,8 @@ void TcpTransport::Core::close(ConnectionId connection) {
   }
   if (peer->is_open) {
     // Unread input would turn our close into a reset, which may overtake the last bytes that we sent.
-    asio::error_code ignored;
-    peer->socket.shutdown(tcp::socket::shutdown_send, ignored);
-    while (::recv(peer->socket.native_handle(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT) > 0) {
+    ::shutdown(peer->file.number(), SHUT_WR);
+    while (::recv(peer->file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT) > 0) {
     }
   }
   end(*peer, CloseReason::closed_by_us, "closed by us");

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "rti/message.h"
+#include "rti/update_block.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -133,19 +134,38 @@ struct Crime {
   std::vector<std::byte> frame;
 };
 
+/// A block of updates as it travels, with one record.
+struct Block {
+  static constexpr MessageKind kind = MessageKind::updates;
+  UpdatesMessage header;
+  std::vector<std::byte> records;
+};
+template <class Stream>
+bool exchange(Stream& stream, Block& block) {
+  Bytes records = block.records;
+  return exchange(stream, block.header) && stream.rest(records, records.size());
+}
+Block block_of(std::uint32_t object, const std::vector<std::byte>& values) {
+  Block block{{vessel_number, AttributeSet{position, speed}.bits}, {}};
+  RecordWriter(block.records).add(object, values);
+  return block;
+}
+
+/// A stamp whose time is infinite.
+struct HalfStamp {
+  static constexpr MessageKind kind = MessageKind::stamp;
+  double time = HUGE_VAL;
+  std::uint64_t tag = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, HalfStamp& message) {
+  return stream.number(message.time) && stream.number(message.tag);
+}
+
 std::vector<Crime> crimes() {
   const std::uint32_t own = 1 * object_block;  // the second federate's block
   const AttributeSet both{position, speed};
-  const auto updates = [](AttributeSet set, std::uint32_t value_size, std::span<const std::byte> records) {
-    UpdatesMessage message;
-    message.object_class = vessel_number;
-    message.attributes = set.bits;
-    message.value_size = value_size;
-    message.count = 1;
-    message.records = records;
-    return message;
-  };
-  static const auto foreign = values_of(std::uint32_t{0}, 1.0f, 2.0f, 3.0f), owned = values_of(own, 1.0f, 2.0f, 3.0f), short_record = values_of(own, 1.0f, 2.0f);
+  const Block foreign = block_of(0, values_of(1.0f, 2.0f, 3.0f)), owned = block_of(own, values_of(1.0f, 2.0f, 3.0f)), short_record = block_of(own, values_of(1.0f, 2.0f));
   static const auto inverted = values_of(std::uint32_t{0}, 2.0, 2.0, 1.0, 1.0), infinite = values_of(std::uint32_t{0}, 0.0, 0.0, HUGE_VAL, 1.0);
   const PublishObjectClassMessage publish{vessel_number, both.bits};
   const RegisterObjectMessage here{own, vessel_number, ""};
@@ -162,10 +182,12 @@ std::vector<Crime> crimes() {
       {"UnpublishedClass", Violation::undeclared, frame_of(here)},
       {"HandleOutOfOrder", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{own + 5, vessel_number, ""})},
       {"HandleOfSomebodyElse", Violation::unknown_name, frame_of(publish, RegisterObjectMessage{0, vessel_number, ""})},
-      {"UpdateOfForeignObject", Violation::not_owned, frame_of(publish, updates(both, 12, foreign))},
+      {"UpdateOfForeignObject", Violation::not_owned, frame_of(publish, StampMessage{}, foreign)},
       {"UpdateOfUnpublishedAttribute", Violation::undeclared,
-       frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position}.bits}, here, updates(both, 12, owned))},
-      {"UpdateOfWrongSize", Violation::malformed, frame_of(publish, here, updates(both, 8, short_record))},
+       frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position}.bits}, here, StampMessage{}, owned)},
+      {"UpdateOfWrongSize", Violation::malformed, frame_of(publish, here, StampMessage{}, short_record)},
+      {"UpdateWithoutStamp", Violation::malformed, frame_of(publish, here, owned)},
+      {"StampThatIsNoNumber", Violation::malformed, frame_of(publish, here, HalfStamp{})},
       {"DeletionOfForeignObject", Violation::not_owned, frame_of(DeleteObjectMessage{0})},
       {"DeletionOfUnknownObject", Violation::unknown_name, frame_of(DeleteObjectMessage{own + 9})},
       {"UnpublishedInteraction", Violation::undeclared, frame_of(InteractionMessage{1, FederateHandle::none, {}, {}})},
@@ -248,19 +270,13 @@ TEST(BadPeer, AnAmbassadorNoticesASilentRti) {
 /// What a busy federate says, as one stream.
 std::vector<std::byte> recorded_session() {
   const AttributeSet both{position, speed};
-  static const auto records = values_of(object_block, 1.0f, 2.0f, 3.0f);
-  UpdatesMessage updates;
-  updates.object_class = vessel_number;
-  updates.attributes = both.bits;
-  updates.value_size = 12;
-  updates.count = 1;
-  updates.records = records;
+  const Block updates = block_of(object_block, values_of(1.0f, 2.0f, 3.0f));
   static const auto bounds = values_of(std::uint32_t{0}, 1.0, 1.0, 2.0, 2.0);
   static const auto words = bytes_of("ahoy");
   std::vector<std::byte> session = frame_of(join_of("recorded"));
   const auto rest = frame_of(WatchFederatesMessage{}, PublishObjectClassMessage{vessel_number, both.bits}, CreateRegionMessage{0},
                              ModifyRegionsMessage{1, bounds}, SubscribeObjectClassMessage{vessel_number, both.bits, 0},
-                             RegisterObjectMessage{object_block, vessel_number, "Aurora"}, AssociateRegionMessage{object_block, 0}, updates,
+                             RegisterObjectMessage{object_block, vessel_number, "Aurora"}, AssociateRegionMessage{object_block, 0}, StampMessage{}, updates,
                              PublishInteractionClassMessage{1, 1}, SubscribeInteractionClassMessage{1, 1}, InteractionMessage{1, FederateHandle::none, {}, words},
                              RegisterSynchronizationPointMessage{"start"}, SynchronizationPointAchievedMessage{"start"});
   const auto end = frame_of(HeartbeatMessage{}, DeleteRegionMessage{0}, DeleteObjectMessage{object_block}, ResignMessage{});

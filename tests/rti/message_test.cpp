@@ -1,9 +1,12 @@
 // Every message: what is written is what is read, as long as it was measured, and nothing less is accepted.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include "rti/message.h"
+#include "rti/update_block.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -62,9 +65,8 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(PublishInteractionClassMessage{u16(), static_cast<std::uint8_t>(u16() % 2)});
     expect_round_trip(DiscoverObjectMessage{u32(), u16(), dice.text()});
     expect_round_trip(RemoveObjectMessage{u32()});
-    const std::uint32_t count = u32() % 20, size = u32() % 30;
-    expect_round_trip(UpdatesMessage{u16(), u32(), dice.stamp(), size, count, dice.some(count * (4 + size))});
-    expect_round_trip(UpdatesMessage{u16(), u32(), dice.stamp(), UpdatesMessage::varies, count, dice.some(size)});
+    expect_round_trip(StampMessage{dice.stamp()});
+    expect_round_trip(UpdatesMessage{u16(), u32()});
     expect_round_trip(InteractionMessage{u16(), u32(), dice.stamp(), dice.some(u32() % 300)});
     const auto regions = static_cast<std::uint16_t>(u32() % 5);
     expect_round_trip(ModifyRegionsMessage{regions, dice.some(regions * ModifyRegionsMessage::record_size)});
@@ -77,24 +79,82 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
   }
 }
 
-TEST(Message, TheHeaderOfABlockIsThatOfItsMessage) {
-  const auto records = values_of(std::uint32_t{5}, 1.0f, 2.0f);
-  UpdatesMessage message{3, 1, {1.5, 7}, 8, 1, records};
-  std::vector<std::byte> whole, header(UpdatesMessage::header_size);
-  write(whole, message);
-  write_updates_header(header.data(), 3, AttributeSet(1), {1.5, 7}, 8, 1, static_cast<std::uint32_t>(records.size()));
-  EXPECT_TRUE(std::equal(header.begin(), header.end(), whole.begin()));
+TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    for (const std::uint64_t value : {(1ull << bit) - 1, 1ull << bit, (1ull << bit) | 1}) {
+      std::uint64_t written = value, read = 0;
+      std::vector<std::byte> bytes;
+      Writer(bytes).varint(written);
+      EXPECT_EQ(bytes.size(), std::max<std::size_t>(1, (static_cast<std::size_t>(std::bit_width(value)) + 6) / 7)) << value;
+      Reader reader(bytes);
+      ASSERT_TRUE(reader.varint(read));
+      EXPECT_EQ(read, value);
+      EXPECT_TRUE(reader.is_at_end());
+      Reader cut(Bytes(bytes).first(bytes.size() - 1));
+      EXPECT_FALSE(cut.varint(read));
+      std::uint16_t narrow = 0;
+      Reader again(bytes);
+      EXPECT_EQ(again.varint(narrow), value <= 0xffff) << value << ": a number that does not fit is refused, not cut";
+    }
+  }
 }
 
-TEST(Message, CountsThatDoNotMatchTheirBytesAreNotBelieved) {
-  const auto records = values_of(std::uint32_t{5}, 1.0f, 2.0f);
-  for (const std::uint32_t count : {0u, 2u, 0xffffffffu}) {
-    std::vector<std::byte> bytes(UpdatesMessage::header_size);
-    write_updates_header(bytes.data(), 3, AttributeSet(1), {}, 8, count, static_cast<std::uint32_t>(records.size()));
-    bytes.insert(bytes.end(), records.begin(), records.end());
-    Reader reader(Bytes(bytes).subspan(1));
-    UpdatesMessage message;
-    EXPECT_FALSE(exchange(reader, message)) << count;
+TEST(UpdateBlock, StepsBetweenAnyTwoHandlesReadBack) {
+  std::mt19937 random(3);
+  std::vector<std::uint32_t> handles{0, 0xffffffffu, 0, 5, 5, 4, 0x80000000u, 0x7fffffffu};
+  for (int i = 0; i < 1000; ++i) handles.push_back(static_cast<std::uint32_t>(random() >> random() % 32));
+  std::vector<std::byte> bytes;
+  {
+    RecordWriter writer(bytes);
+    for (const std::uint32_t handle : handles) writer.add(handle, {});
+  }
+  Reader reader(bytes);
+  HandleReader back;
+  for (const std::uint32_t handle : handles) {
+    std::uint32_t read = 0;
+    ASSERT_EQ(back.next(reader, read), HandleReader::Next::handle);
+    ASSERT_EQ(read, handle);
+  }
+  std::uint32_t read = 0;
+  EXPECT_EQ(back.next(reader, read), HandleReader::Next::end);
+  EXPECT_TRUE(reader.is_at_end());
+}
+
+TEST(UpdateBlock, AStepBeyondAllHandlesIsMalformedWhereverItStarts) {
+  for (const std::uint64_t step : {std::uint64_t{1} << 34, ~std::uint64_t{0}, ~std::uint64_t{0} - 1, std::uint64_t{1} << 63}) {
+    std::array<std::byte, 2 * varint_size_max> bytes{};
+    std::byte* end = put_varint(bytes.data(), handle_step(0, 0xffffffffu));
+    end = put_varint(end, step);
+    Reader reader(Bytes(bytes.data(), end));
+    HandleReader back;
+    std::uint32_t read = 0;
+    ASSERT_EQ(back.next(reader, read), HandleReader::Next::handle);
+    EXPECT_EQ(back.next(reader, read), HandleReader::Next::malformed) << step;
+  }
+}
+
+TEST(UpdateBlock, RecordsOfAnySizeReadBackAndNoneIsReadFromABlockThatIsCut) {
+  const ObjectClass& object_class = harbour().at(ferry);
+  const AttributeSet set{speed, destination};
+  std::vector<std::byte> bytes;
+  std::vector<std::vector<std::byte>> all;
+  {
+    RecordWriter writer(bytes);
+    for (std::size_t size = 0; size < 3000; size += 1 + size / 2) {
+      std::vector<std::byte> values = values_of(1.5f);
+      const auto town = varying(std::string(size, 'x'));
+      values.insert(values.end(), town.begin(), town.end());
+      writer.add(static_cast<std::uint32_t>(size), values);
+      all.push_back(values);
+    }
+  }
+  std::size_t count = 0;
+  Reader reader(bytes);
+  EXPECT_TRUE(read_records(reader, object_class, set, [&](std::uint32_t, Bytes values) { return std::ranges::equal(values, all[count++]); }));
+  EXPECT_EQ(count, all.size());
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
+    Reader cut(Bytes(bytes).first(size));
+    EXPECT_FALSE(read_records(cut, object_class, set, [](std::uint32_t, Bytes) { return true; })) << size;
   }
 }
 

@@ -1,0 +1,60 @@
+// Which files can be read or written: the kernel's epoll, asked for many at once.
+#pragma once
+
+#include <sys/epoll.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace rink::rti {
+
+/// Closes a file of the operating system when it goes out of scope.
+class File {
+ public:
+  File() = default;
+  explicit File(int number) : number_(number) {}
+  ~File() { close(); }
+  File(File&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+  File& operator=(File&& other) noexcept;
+
+  int number() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+  void close();
+
+ private:
+  int number_ = -1;
+};
+
+/// Watches files by a number of the caller's choice. Level-triggered: what was not read or written to the end is told again, so a file is watched once and
+/// not touched again between two reads, which halves the system calls of a reactor that arms each read anew.
+class Readiness {
+ public:
+  struct Event {
+    std::uint64_t number;
+    bool is_writable, is_readable;  ///< both after an error or the peer's end, which reading or writing then tells
+  };
+
+  Readiness();
+
+  /// `wants_room`: also tell when it can be written. The file is forgotten when it is closed. False if the kernel refuses.
+  bool watch(int file, std::uint64_t number, bool wants_room);
+  void change(int file, std::uint64_t number, bool wants_bytes, bool wants_room);
+
+  /// The next event, in the order in which the kernel tells them; it is asked again once all that it told are taken, so that nobody waits for ever
+  /// behind a file that always has something. An event may be about a file that was closed since.
+  std::optional<Event> next();
+
+  /// Waits for an event, at most so long; may end early.
+  void wait(std::chrono::nanoseconds longest_wait);
+
+ private:
+  static constexpr std::size_t batch_max = 512;  ///< events of one system call
+  File epoll_;
+  std::array<epoll_event, batch_max> told_;
+  std::size_t taken_ = 0, count_ = 0;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,91 @@
+// Blocks of updates on the wire: records that follow a header until a zero, each with the step from the handle before (docs/wire.md).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "rti/attribute_codec.h"
+#include "rti/message.h"
+#include "rti/stream.h"
+
+namespace rink::rti {
+
+/// The step from one handle to the next as it is sent: small for near handles in either direction, and never 0, which ends the block.
+inline std::uint64_t handle_step(std::uint32_t from, std::uint32_t to) {
+  const std::int64_t difference = std::int64_t{to} - std::int64_t{from};
+  return ((static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63)) + 1;
+}
+
+/// Reads the handles of one block.
+class HandleReader {
+ public:
+  enum class Next : std::uint8_t { handle, end, malformed };
+  Next next(Reader& reader, std::uint32_t& handle) {
+    std::uint64_t step = 0;
+    if (!reader.varint(step)) return Next::malformed;
+    if (step-- == 0) return Next::end;
+    if (step >> 34 != 0) return Next::malformed;
+    const std::int64_t difference = static_cast<std::int64_t>(step >> 1) ^ -static_cast<std::int64_t>(step & 1);
+    const std::int64_t value = std::int64_t{previous_} + difference;
+    if (value < 0 || value > 0xffffffffll) return Next::malformed;
+    previous_ = handle = static_cast<std::uint32_t>(value);
+    return Next::handle;
+  }
+
+ private:
+  std::uint32_t previous_ = 0;
+};
+
+/// Appends records to `bytes`, gathered in small parts since a vector grows slowly byte by byte. Its end closes the block.
+class RecordWriter {
+ public:
+  explicit RecordWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  RecordWriter(const RecordWriter&) = delete;
+  RecordWriter& operator=(const RecordWriter&) = delete;
+  ~RecordWriter() {
+    part_[used_++] = std::byte{0};
+    flush();
+  }
+
+  void add(std::uint32_t handle, Bytes values) {
+    if (used_ + varint_size_max + 1 > part_.size()) flush();
+    used_ = static_cast<std::size_t>(put_varint(part_.data() + used_, handle_step(previous_, handle)) - part_.data());
+    previous_ = handle;
+    if (used_ + values.size() + 1 > part_.size()) flush();
+    if (values.size() + 1 > part_.size()) {
+      bytes_.insert(bytes_.end(), values.begin(), values.end());
+      return;
+    }
+    std::ranges::copy(values, part_.data() + used_);
+    used_ += values.size();
+  }
+
+ private:
+  void flush() {
+    bytes_.insert(bytes_.end(), part_.begin(), part_.begin() + static_cast<std::ptrdiff_t>(used_));
+    used_ = 0;
+  }
+  std::vector<std::byte>& bytes_;
+  std::array<std::byte, 1024> part_;
+  std::size_t used_ = 0;
+  std::uint32_t previous_ = 0;
+};
+
+/// Reads one record after the other: `take(handle, coded values)` returns false to stop. Returns false if the block is malformed or `take` returned false.
+template <class Take>
+bool read_records(Reader& reader, const ObjectClass& object_class, AttributeSet set, Take take) {
+  const std::optional<std::uint32_t> fixed_size = coded_size(object_class, set);
+  HandleReader handles;
+  for (;;) {
+    std::uint32_t handle = 0;
+    const HandleReader::Next next = handles.next(reader, handle);
+    if (next != HandleReader::Next::handle) return next == HandleReader::Next::end;
+    const std::optional<std::size_t> size = fixed_size ? std::optional<std::size_t>(*fixed_size) : coded_size(object_class, set, reader.rest());
+    Bytes values;
+    if (!size || *size > values_max || !reader.rest(values, *size) || !take(handle, values)) return false;
+  }
+}
+
+}  // namespace rink::rti
