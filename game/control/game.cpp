@@ -59,6 +59,7 @@ void Game::advance(double until) {
   spawned_.clear();
   removed_.clear();
   scored_.clear();
+  world_.forget_impacts();
   do {
     play_until(next_instant(until));
     face_off_until(now());

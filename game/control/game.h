@@ -53,6 +53,11 @@ class Game {
 
   static constexpr double placement_retry = 0.1;  ///< s
 
+  /// From now on `impacts` tells of every contact; off at first, when it costs nothing.
+  void record_impacts(bool is_wanted) { world_.record_impacts(is_wanted); }
+  /// Of the last `advance`, in order of time.
+  std::span<const physics::Impact> impacts() const { return world_.impacts(); }
+
   double now() const { return world_.now(); }
   const physics::World& world() const { return world_; }
   const MatchRules& rules() const { return rules_; }

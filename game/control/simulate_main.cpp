@@ -11,6 +11,7 @@
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
+#include "game/control/playing.h"
 #include "game/model/scene_file.h"
 
 namespace {
@@ -21,7 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr int bad_input = 2;
 
 struct Options {
-  std::string scene, keys, states, summary;
+  std::string scene, keys, states, summary, record;
+  std::vector<std::string> players;
   double until = 0.0;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint32_t> bats;
@@ -97,18 +99,43 @@ Json summary_of(const game::Game& game, double wall_s) {
           {"wall_s", wall_s}};
 }
 
-void simulate(const Options& options) {
-  const game::Scene scene = scene_of(options);
-  game::Game game(scene);
-  submit_keys(game, scene, options.keys);
-  std::ofstream states = opened(options.states), summary = opened(options.summary);
+/// `played` is a Game or a Playing.
+template <class Played>
+double advance_timed(Played& played, double until) {
   const auto start = std::chrono::steady_clock::now();
-  game.advance(options.until);
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  played.advance(until);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void write_results(const Options& options, const game::Game& game, double wall_s, std::ofstream& states, std::ofstream& summary) {
   if (!options.states.empty()) write_states(states, game);
   (options.summary.empty() ? std::cout : summary) << summary_of(game, wall_s).dump(2) << '\n';
   close(states, options.states);
   close(summary, options.summary);
+}
+
+void simulate(const Options& options) {
+  const game::Scene scene = scene_of(options);
+  std::ofstream states = opened(options.states), summary = opened(options.summary), record = opened(options.record);
+  if (options.players.empty()) {
+    game::Game game(scene);
+    submit_keys(game, scene, options.keys);
+    write_results(options, game, advance_timed(game, options.until), states, summary);
+    return;
+  }
+  game::Playing playing(scene, options.players, scene.seed, options.until);
+  write_results(options, playing.game(), advance_timed(playing, options.until), states, summary);
+  if (options.record.empty()) return;
+  game::KeyLog log = game::key_log_for(scene);
+  log.events = playing.events();
+  game::write_key_log(record, log);
+  close(record, options.record);
+}
+
+std::string allowed_players() {
+  std::string names = "random";
+  for (const std::string& name : game::player_kinds()) names += ", " + name;
+  return names;
 }
 
 }  // namespace
@@ -122,12 +149,17 @@ int main(int argc, char** argv) {
     if (!CLI::detail::lexical_cast(text, until) || !std::isfinite(until) || until < 0.0) return text + ": expected a finite time of 0 s or more, for time neither runs backwards nor for ever";
     return {};
   });
-  app.add_option("--keys", options.keys, "a recorded key log to play (default: the scene's scripted keys only)");
+  CLI::Option* keys = app.add_option("--keys", options.keys, "a recorded key log to play (default: the scene's scripted keys only)");
+  CLI::Option* players = app.add_option("--players", options.players, "who plays the bats, in turn, separated by commas: " + allowed_players() + "; seeded like the scene (default: nobody)")
+                             ->delimiter(',')
+                             ->excludes(keys)
+                             ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : name + ": expected one of " + allowed_players(); });
+  app.add_option("--record", options.record, "write what the players pressed to this key log, which --keys and rink serve --keys play again")->needs(players);
   app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)");
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density (default: as it is)");
   app.add_option("--states", options.states, "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
   app.add_option("--summary", options.summary, "write events, energy, momentum and hash to this JSON file (default: standard output)");
-  app.footer("Example: rink simulate crowd --until 10 --states states.csv\nExit status: 0 done, 2 bad scene, key log or flag.");
+  app.footer("Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate match --players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 bad scene, key log or flag.");
   try {
     app.parse(argc, argv);
     simulate(options);

@@ -11,10 +11,25 @@ namespace {
 
 using physics::BodyKind;
 
-std::uint64_t bat_total(const Scene& scene) {
-  std::uint64_t total = scene.placed.bats.size();
-  for (const Population& population : scene.populations) total += population.kind == BodyKind::bat ? population.count : 0;
+std::uint64_t placed_count(const Scene& scene, BodyKind kind) { return kind == BodyKind::bat ? scene.placed.bats.size() : scene.placed.pucks.size(); }
+
+std::uint64_t count_of(const Scene& scene, BodyKind kind) {
+  std::uint64_t total = placed_count(scene, kind);
+  for (const Population& population : scene.populations) total += population.kind == kind ? population.count : 0;
   return total;
+}
+
+/// Refuses numbers of pucks or bats that the scene's populations cannot give.
+void require_reachable(const Scene& scene, BodyKind kind, std::uint64_t wanted) {
+  const std::string name = kind == BodyKind::bat ? "bats" : "pucks";
+  const std::uint64_t placed = placed_count(scene, kind), total = count_of(scene, kind), least = std::max<std::uint64_t>(placed, 1);
+  if (total == placed) throw SceneError("the scene " + scene.name + " has no population of " + name + ", so it cannot have " + std::to_string(wanted) + " " + name + " instead of " + std::to_string(total));
+  if (wanted < least) throw SceneError("the scene " + scene.name + " cannot have " + std::to_string(wanted) + " " + name + ": expected at least " + std::to_string(least));
+}
+
+/// Scripted keys of players who are not there any more would have nobody to feel them.
+void drop_keys_of_absent(Scene& scene, std::uint32_t bat_count) {
+  std::erase_if(scene.keys, [bat_count](const InputEvent& event) { return event.player >= bat_count; });
 }
 
 void scale_places(Bodies& bodies, double factor) {
@@ -23,12 +38,12 @@ void scale_places(Bodies& bodies, double factor) {
   for (Post& post : bodies.posts) post.body.position *= factor;
 }
 
-/// Shares `wanted` bats among the populations of bats in proportion; each gets what its cumulative share rounds to, so the sum is exact.
-void share_bats(std::vector<Population>& populations, std::uint64_t wanted) {
+/// Shares `wanted` bodies among the populations of their kind in proportion; each gets what its cumulative share rounds to, so the sum is exact.
+void share(std::vector<Population>& populations, BodyKind kind, std::uint64_t wanted) {
   std::uint64_t total = 0, before = 0, given = 0;
-  for (const Population& population : populations) total += population.kind == BodyKind::bat ? population.count : 0;
+  for (const Population& population : populations) total += population.kind == kind ? population.count : 0;
   for (Population& population : populations) {
-    if (population.kind != BodyKind::bat) continue;
+    if (population.kind != kind) continue;
     before += population.count;
     const std::uint64_t until_here = (2 * wanted * before + total) / (2 * total);
     population.count = static_cast<std::uint32_t>(until_here - given);
@@ -75,11 +90,9 @@ Scene with_seed(Scene scene, std::uint64_t seed) {
 }
 
 Scene scaled_to_bats(Scene scene, std::uint32_t bat_count) {
-  const std::uint64_t total = bat_total(scene), placed = scene.placed.bats.size();
+  const std::uint64_t total = count_of(scene, BodyKind::bat), placed = scene.placed.bats.size();
   if (total == bat_count) return scene;
-  if (total == placed) throw SceneError("the scene " + scene.name + " has no population of bats, so it cannot have " + std::to_string(bat_count) + " bats instead of " + std::to_string(total));
-  if (bat_count < std::max<std::uint64_t>(placed, 1))
-    throw SceneError("the scene " + scene.name + " cannot have " + std::to_string(bat_count) + " bats: expected at least " + std::to_string(std::max<std::uint64_t>(placed, 1)));
+  require_reachable(scene, BodyKind::bat, bat_count);
   const double area_factor = static_cast<double>(bat_count) / static_cast<double>(total), factor = std::sqrt(area_factor);
   scene.world.field.length *= factor;
   scene.world.field.width *= factor;
@@ -87,8 +100,17 @@ Scene scaled_to_bats(Scene scene, std::uint32_t bat_count) {
   scale_places(scene.placed, factor);
   for (Population& population : scene.populations)
     if (population.kind != BodyKind::bat) population.count = static_cast<std::uint32_t>(std::llround(population.count * area_factor));
-  share_bats(scene.populations, bat_count - placed);
-  std::erase_if(scene.keys, [bat_count](const InputEvent& event) { return event.player >= bat_count; });
+  share(scene.populations, BodyKind::bat, bat_count - placed);
+  drop_keys_of_absent(scene, bat_count);
+  populate(scene);
+  return scene;
+}
+
+Scene with_count(Scene scene, BodyKind kind, std::uint32_t count) {
+  if (count_of(scene, kind) == count) return scene;
+  require_reachable(scene, kind, count);
+  share(scene.populations, kind, count - placed_count(scene, kind));
+  if (kind == BodyKind::bat) drop_keys_of_absent(scene, count);
   populate(scene);
   return scene;
 }

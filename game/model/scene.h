@@ -109,6 +109,10 @@ Scene with_seed(Scene scene, std::uint64_t seed);
 /// places. Throws SceneError if the scene has no population of bats to change, or `bat_count` cannot be reached.
 Scene scaled_to_bats(Scene scene, std::uint32_t bat_count);
 
+/// The same field with `count` pucks or bats (`kind`) instead, placed ones included: density changes. Throws SceneError if the scene has no population of them to
+/// change, or `count` cannot be reached, PlacementError if they do not fit.
+Scene with_count(Scene scene, physics::BodyKind kind, std::uint32_t count);
+
 /// FNV-1a of all that decides a game but its name and keys: scenes that differ in anything else differ in this (but for chance).
 std::uint64_t fingerprint(const Scene& scene);
 

@@ -1,0 +1,93 @@
+// Advances the game from one decision to the next; where a game stops on the way changes nothing in it.
+#include "game/control/playing.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "game/players/random_plan.h"
+
+namespace rink::game {
+namespace {
+
+bool is_earlier(const InputEvent& a, const InputEvent& b) { return std::tuple(a.time, a.player) < std::tuple(b.time, b.player); }
+
+}  // namespace
+
+Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until) : game_(scene) {
+  assert(!kinds.empty());
+  for (std::uint32_t number = 0; number < game_.player_count(); ++number) {
+    const std::string& kind = kinds[number % kinds.size()];
+    if (kind == "random") {
+      const std::vector<InputEvent> keys = random_player_plan(seed, number, until);
+      planned_.insert(planned_.end(), keys.begin(), keys.end());
+      continue;
+    }
+    const Bat& bat = scene.bodies.bats[number];
+    const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
+    seats_.push_back({number, decision_phase(number), make_player(kind, rules_of(scene, number), seat, seed), {}, {}});
+  }
+  std::stable_sort(planned_.begin(), planned_.end(), is_earlier);
+  for (const InputEvent& event : planned_) game_.submit(event);
+  std::stable_sort(seats_.begin(), seats_.end(), [](const Seat& a, const Seat& b) { return a.phase < b.phase; });
+}
+
+void Playing::advance(double until) {
+  for (; !seats_.empty(); ++turn_) {
+    Seat& seat = seats_[turn_ % seats_.size()];
+    const double instant = static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
+    if (instant > until) break;
+    game_.advance(instant);
+    decide(seat, instant);
+  }
+  game_.advance(until);
+}
+
+void Playing::decide(Seat& seat, double instant) {
+  const std::optional<EntityId> bat = game_.bat(seat.number);
+  if (!bat) return;
+  const Vector2 position = game_.position(*bat);
+  if (seat.decisions++ % look_about_interval == 0) look_about(seat, position, instant);
+  seen_.clear();
+  for (const auto& watched : seat.watched.found()) {
+    const EntityId puck = watched.thing;
+    if (!game_.world().is_in_play(puck)) continue;
+    seen_.push_back({.id = puck.index, .kind = physics::BodyKind::puck, .position = game_.position(puck), .velocity = game_.velocity(puck), .half_extent = game_.world().half_extent(puck)});
+  }
+  press(seat, seat.player->decide({.position = position, .velocity = game_.velocity(*bat), .pucks = seen_}, instant), instant);
+}
+
+/// To choose by, positions up to a decision old will do; finding them anew for every player would take three quarters of all the work.
+void Playing::look_about(Seat& seat, const Vector2& from, double instant) {
+  seat.watched.clear(seat.player->pucks_wanted());
+  if (seat.player->pucks_wanted() == 0) return;
+  if (located_s_ < 0.0 || instant - located_s_ >= decision_period) locate_pucks(instant);
+  for (const Located& located : located_) seat.watched.show(located.puck, (located.position - from).squaredNorm());
+}
+
+void Playing::locate_pucks(double instant) {
+  located_.clear();
+  located_s_ = instant;
+  for (const Entity& entity : game_.entities())
+    if (entity.kind == physics::BodyKind::puck && game_.world().is_in_play(entity.id)) located_.push_back({entity.id, game_.position(entity.id)});
+}
+
+void Playing::press(Seat& seat, KeysHeld wanted, double instant) {
+  for (const Key key : all_keys) {
+    if (wanted.is_down(key) == seat.held.is_down(key)) continue;
+    decided_.push_back({instant, seat.number, wanted.is_down(key) ? InputKind::key_down : InputKind::key_up, key});
+    game_.submit(decided_.back());
+  }
+  seat.held = wanted;
+}
+
+std::vector<InputEvent> Playing::events() const {
+  std::vector<InputEvent> all;
+  std::merge(planned_.begin(), planned_.end(), decided_.begin(), decided_.end(), std::back_inserter(all), is_earlier);
+  std::erase_if(all, [this](const InputEvent& event) { return event.time > game_.now(); });
+  return all;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,57 @@
+// Players who play a game on its true state, offline, and the log of what they did.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/players/attention.h"
+#include "game/players/player.h"
+
+namespace rink::game {
+
+/// A game and a player for each of its bats. Everybody decides on the true state every decision_period, each at a phase of its own; keys take effect at that very
+/// instant. The same arguments give the same events, and submitting these to a Game of the same scene gives the same game, bit for bit.
+class Playing {
+ public:
+  /// `kinds`, at least one: bat k is played by kind k modulo their number, each "random" or one of player_kinds() (asserted). `until`: how long random players are
+  /// to press keys [s].
+  Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until);
+
+  /// Plays up to and including `until` [s].
+  void advance(double until);
+
+  const Game& game() const { return game_; }
+  /// All that was pressed up to now(), ordered by time, then player.
+  std::vector<InputEvent> events() const;
+
+ private:
+  struct Seat {
+    std::uint32_t number;
+    double phase;
+    std::unique_ptr<Player> player;
+    KeysHeld held;
+    Nearest<EntityId> watched;  ///< pucks it has an eye on
+    std::uint64_t decisions = 0;
+  };
+
+  void decide(Seat& seat, double instant);
+  void look_about(Seat& seat, const Vector2& from, double instant);
+  void locate_pucks(double instant);
+  void press(Seat& seat, KeysHeld wanted, double instant);
+
+  Game game_;
+  std::vector<Seat> seats_;  ///< in order of phase
+  std::uint64_t turn_ = 0;   ///< decisions made; seats take turns
+  std::vector<InputEvent> planned_, decided_;
+  std::vector<SeenEntity> seen_;
+  struct Located {
+    EntityId puck;
+    Vector2 position;
+  };
+  std::vector<Located> located_;  ///< all pucks in play, where they were at located_s_
+  double located_s_ = -1.0;
+};
+
+}  // namespace rink::game

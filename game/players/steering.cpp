@@ -1,0 +1,60 @@
+// Bang-bang control along each axis, which is all that four keys allow.
+#include "game/players/steering.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace rink::game {
+
+KeysHeld keys_towards(int push_x, int push_y) {
+  KeysHeld keys;
+  if (push_x != 0) keys.set(push_x > 0 ? Key::right : Key::left, true);
+  if (push_y != 0) keys.set(push_y > 0 ? Key::up : Key::down, true);
+  return keys;
+}
+
+double speed_to_stop_within(double distance, double thrust) { return std::sqrt(2.0 * thrust * distance); }
+
+double top_speed(const PlayerRules& rules) { return rules.bat_drag > 0.0 ? rules.thrust / rules.bat_drag : rules.thrust; }
+
+int pushed_along(int held, double need, double start, double stop) {
+  if (held != 0 && held * need > stop) return held;
+  return need > start ? 1 : need < -start ? -1 : 0;
+}
+
+int push_x(KeysHeld keys) { return (keys.is_down(Key::right) ? 1 : 0) - (keys.is_down(Key::left) ? 1 : 0); }
+int push_y(KeysHeld keys) { return (keys.is_down(Key::up) ? 1 : 0) - (keys.is_down(Key::down) ? 1 : 0); }
+
+KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cruise_speed, const PlayerRules& rules, KeysHeld held) {
+  const Vector2 way = target - view.position;
+  const double distance = std::sqrt(way.squaredNorm());
+  // Half the thrust for braking: a decision may come a whole period late for it.
+  const double speed = std::min(cruise_speed, speed_to_stop_within(distance, 0.5 * rules.thrust));
+  const double there = 2.0 * rules.thrust * decision_period * decision_period;  // nearer than this four keys cannot hold a bat
+  const Vector2 wanted = distance > there ? Vector2(way * (speed / distance)) : Vector2(0.0, 0.0);
+  // What drag will take until the next decision has to be made good as well. In units of what the thrust of one decision changes:
+  const Vector2 missing = (wanted - view.velocity * (1.0 - rules.bat_drag * decision_period)) / (rules.thrust * decision_period);
+  constexpr double start = 1.0, stop = 0.0;
+  return keys_towards(pushed_along(push_x(held), missing.x(), start, stop), pushed_along(push_y(held), missing.y(), start, stop));
+}
+
+KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& random) {
+  assert(delay_ <= delay_max);
+  wishes_[next_] = wanted;
+  const KeysHeld due = wishes_[(next_ + delay_max + 1 - delay_) % (delay_max + 1)];
+  next_ = (next_ + 1) % (delay_max + 1);
+  if (escaping_ > 0) {
+    --escaping_;
+    return held_ = escape_;
+  }
+  const bool is_stuck = held_.bits() != 0 && velocity.squaredNorm() < still_speed * still_speed;
+  stuck_ = is_stuck ? stuck_ + 1 : 0;
+  if (stuck_ < stuck_decisions) return held_ = due;
+  stuck_ = 0;
+  escaping_ = escape_decisions;
+  escape_ = keys_towards(static_cast<int>(random.below(3)) - 1, static_cast<int>(random.below(3)) - 1);
+  return held_ = escape_;
+}
+
+}  // namespace rink::game
