@@ -5,17 +5,18 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/net/view.h"
 #include "game/replication/names.h"
 
 namespace rink::game {
 
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
-    : model_(model), view_fraction_(settings.view_fraction), mirror_(model), ambassador_(fom, *this) {
+    : model_(model), settings_(settings), mirror_(model), ambassador_(fom, *this) {
   ambassador_.join(settings.federation, settings.name, player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.seat);
-  ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent});
+  ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent, model_.drag});
   ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
 }
 
@@ -49,23 +50,26 @@ void Client::subscribe_once_seated() {
   state_ = State::seated;
   view_ = ambassador_.create_region();
   look_around(seat_->position);
-  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position}, view_);
+  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory}, view_);
 }
 
 void Client::look_around(const Position& centre) {
   centre_ = centre;
   const Extent& field = *mirror_.field();
-  const double half_side = view_fraction_ < 1.0 ? 0.5 * std::sqrt(view_fraction_ * double(field.length) * double(field.width))
-                                                : 2.0 * double(std::max(field.length, field.width));
+  const double half_side = view_half_side(settings_.view_area, settings_.view_fraction, field.length, field.width) + settings_.view_margin;
   view_bounds_ = {centre.x - half_side, centre.y - half_side, centre.x + half_side, centre.y + half_side};
   ambassador_.set_region(view_, view_bounds_);
   ambassador_.commit_region_modifications(view_);
 }
 
-void Client::follow_bat() {
+void Client::follow_bat(double instant) {
   const MirroredEntity* own = bat();
-  if (state_ >= State::refused || own == nullptr || own->position == centre_) return;
-  look_around(own->position);
+  if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr) return;
+  const Position there = rounded(own->position_at(instant));
+  if (there == centre_) return;
+  const double moved = std::max(std::abs(double(there.x) - double(centre_.x)), std::abs(double(there.y) - double(centre_.y)));
+  if (moved < 0.5 * settings_.view_margin) return;
+  look_around(there);
 }
 
 void Client::press(Key key) { send_key(model_.key_down, key); }
@@ -110,12 +114,27 @@ void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClass
 
 void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
   mirror_.reflect(object, attributes, values, stamp);
+  if (is_watched_) heard_.updates.push_back({object, static_cast<std::uint32_t>(values.size())});
   if (state_ == State::joining) subscribe_once_seated();
   if ((state_ == State::seated || state_ == State::ready) && object == bat_) reach_barrier_once_ready();
 }
 
-void Client::attributes_in_scope(rti::ObjectHandle object) { mirror_.set_scope(object, true); }
-void Client::attributes_out_of_scope(rti::ObjectHandle object) { mirror_.set_scope(object, false); }
-void Client::remove_object_instance(rti::ObjectHandle object) { mirror_.remove(object); }
+void Client::attributes_in_scope(rti::ObjectHandle object) { set_scope(object, true); }
+void Client::attributes_out_of_scope(rti::ObjectHandle object) { set_scope(object, false); }
+
+void Client::remove_object_instance(rti::ObjectHandle object) {
+  if (is_watched_) heard_.scopes.push_back({object, false});
+  mirror_.remove(object);
+}
+
+void Client::set_scope(rti::ObjectHandle object, bool is_in) {
+  if (is_watched_) heard_.scopes.push_back({object, is_in});
+  mirror_.set_scope(object, is_in);
+}
+
+void Client::forget_heard() {
+  heard_.scopes.clear();
+  heard_.updates.clear();
+}
 
 }  // namespace rink::game

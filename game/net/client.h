@@ -16,7 +16,25 @@ namespace rink::game {
 struct ClientSettings {
   std::string federation = "rink";
   std::string name;             ///< of the federate; "bat-17" asks for that bat
-  double view_fraction = 0.05;  ///< area of the square interest region around the bat, as a fraction of the field's; at least 1: everything
+  double view_fraction = 0.05;  ///< area of the square view around the bat, as a fraction of the field's; at least 1: everything
+  double view_area = 0.0;       ///< area of the view [m^2] instead; 0: as the fraction says
+  /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when the bat is half of that from its middle: the other half
+  /// covers what the bat moves until the RTI has heard of it.
+  double view_margin = 0.0;
+};
+
+/// What a watched client was told since it was last asked, in order of arrival.
+struct Heard {
+  struct Scope {
+    rti::ObjectHandle object;
+    bool is_in = false;
+  };
+  struct Update {
+    rti::ObjectHandle object;
+    std::uint32_t bytes = 0;  ///< of its values
+  };
+  std::vector<Scope> scopes;
+  std::vector<Update> updates;
 };
 
 /// One player's federate. No clock, no socket: `ambassador` takes and gives the bytes.
@@ -35,8 +53,15 @@ class Client : public rti::FederateAmbassador {
   void release(Key key);
   /// Synchronous mode: says that this player's turn is done.
   void end_turn();
-  /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move.
-  void follow_bat();
+  /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move (by half the margin).
+  void follow_bat() { follow_bat(mirror_.newest().time); }
+  /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory moves without being heard of.
+  void follow_bat(double instant);
+
+  /// Makes the client keep what it hears, for who measures it; off at first.
+  void watch() { is_watched_ = true; }
+  const Heard& heard() const { return heard_; }
+  void forget_heard();
 
   State state() const { return state_; }
   /// Why the state is refused or lost.
@@ -49,6 +74,8 @@ class Client : public rti::FederateAmbassador {
   const MirroredEntity* bat() const { return mirror_.find(bat_); }
   std::uint32_t keys_sent() const { return keys_sent_; }
   const Mirror& mirror() const { return mirror_; }
+  /// All that it keeps: itself, tables and buffers [bytes].
+  std::size_t memory_bytes() const { return sizeof *this + mirror_.memory_bytes() + ambassador_.memory_bytes() + encoded_.capacity(); }
 
  private:
   void join_refused(rti::Refusal refusal, std::string_view why) override;
@@ -62,13 +89,14 @@ class Client : public rti::FederateAmbassador {
   void remove_object_instance(rti::ObjectHandle object) override;
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
+  void set_scope(rti::ObjectHandle object, bool is_in);
   void send_key(rti::InteractionClassHandle interaction, Key key);
   void look_around(const Position& centre);
   void subscribe_once_seated();
   void reach_barrier_once_ready();
 
   const ObjectModel& model_;
-  double view_fraction_;
+  ClientSettings settings_;
   Mirror mirror_;
   rti::Ambassador ambassador_;
   rti::ObjectHandle bat_;
@@ -77,6 +105,8 @@ class Client : public rti::FederateAmbassador {
   Position centre_;
   im::Region view_bounds_;
   std::vector<std::byte> encoded_;
+  Heard heard_;
+  bool is_watched_ = false;
   bool is_called_ = false;  ///< to the start barrier
   std::uint32_t keys_sent_ = 0;
   State state_ = State::joining;

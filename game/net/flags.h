@@ -17,7 +17,9 @@
 namespace rink::game {
 
 inline constexpr double seconds_max = 86'400.0;  ///< longest run, warm-up or patience [s]: plans and key logs are held in memory
-inline constexpr std::uint32_t bats_max = 100'000;
+inline constexpr std::uint32_t bats_max = 100'000, pucks_max = 1'000'000;
+inline constexpr std::uint32_t sweep_ticks_max = 1'000;
+inline constexpr double view_area_max = 1e12, view_margin_max = 1e6;  ///< m^2, m
 
 /// A number from `low` to `high`. CLI11's own checks let NaN pass and print the bounds that they don't have with 309 digits.
 inline CLI::Validator number_from(double low, double high) {

@@ -11,18 +11,17 @@
 #include <string>
 
 #include "game/control/key_log.h"
-#include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
+#include "game/net/evidence.h"
 #include "game/net/fom_file.h"
+#include "game/net/scene_choice.h"
 #include "game/net/serve_options.h"
-#include "game/net/server.h"
+#include "game/net/serving.h"
+#include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
 #include "rti/message.h"
-#include "rti/transport/federate_link.h"
-#include "rti/transport/federation_host.h"
-#include "rti/transport/in_process.h"
 #include "rti/transport/tcp.h"
 
 namespace {
@@ -41,8 +40,6 @@ constexpr std::size_t body_max = rti::object_block / 2;
 /// The clock of every process of this machine that the stamps refer to [s].
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
 
-std::chrono::nanoseconds nanoseconds(double seconds) { return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)); }
-
 /// What the run cost, summed over the measured ticks.
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
@@ -51,32 +48,17 @@ struct Costs {
   rti::TransportCounters tcp_begin, tcp_end;   ///< of the clients' connections
 };
 
-/// Adds the time since it was made or last read to a sum.
-class Stopwatch {
+/// The server process: the clients' transport, the wall clock, and the loop that ticks.
+class ServerProcess {
  public:
-  void add_to(double& sum) {
-    const double now = now_s();
-    sum += now - since_;
-    since_ = now;
-  }
-
- private:
-  double since_ = now_s();
-};
-
-/// The whole server process: game, RTI, transports, and the loop that ticks them.
-class Serving {
- public:
-  Serving(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
+  ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
       : options_(options),
-        execution_(fom, federation_settings(options, scene, federation)),
-        host_(execution_),
-        server_(fom, scene, {.federation = federation, .policy = options.policy, .replay = std::move(replay)}, [this] { return simulated_now(); }),
-        link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
-    execution_.advance_clock(now_s());  // before anybody connects: silence counts from then on
-    links_.add(link_);
-    host_.add(hub_);
-    host_.add(tcp_);
+        serving_(fom, scene, {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay)},
+                 federation_settings(options, scene, federation), now_s, [this] { return simulated_now(); }),
+        server_(serving_.server()) {
+    serving_.host().add(tcp_);
+    if (!options.evidence.empty())
+      serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
   }
 
   std::uint16_t listen() { return tcp_.listen(options_.address, options_.port); }
@@ -89,6 +71,8 @@ class Serving {
 
   const game::Server& server() const { return server_; }
   Json report() const;
+  /// What the run was and what its filter decided, if `--evidence` asked for it.
+  std::optional<game::ServerEvidence> evidence(const game::SceneChoice& choice) const;
   /// Adds what the connections carried from first to last, as counted here and by the kernel.
   void add_totals(Json& report) const;
 
@@ -96,25 +80,18 @@ class Serving {
   static rti::FederationSettings federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void exchange_until(double until_s);
-  void exchange(double longest_wait_s);
   void await_turns();
-  void send_tick(double simulated_s, double due_s, Costs& costs);
   void tick(std::uint64_t number);
 
   game::ServeOptions options_;
-  rti::InProcessNetwork network_;
-  rti::InProcessEndpoint hub_{network_}, endpoint_{network_};
   rti::TcpTransport tcp_;
-  rti::FederationExecution execution_;
-  rti::FederationHost host_;
-  game::Server server_;
-  rti::FederateLink link_;
-  rti::FederateLinks links_;
+  game::Serving serving_;
+  game::Server& server_;
   double start_s_ = 0.0;
   Costs costs_;
 };
 
-rti::FederationSettings Serving::federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
+rti::FederationSettings ServerProcess::federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
   rti::FederationSettings settings;
   settings.federation = federation;
   settings.filter = options.scheme;
@@ -122,74 +99,50 @@ rti::FederationSettings Serving::federation_settings(const game::ServeOptions& o
   return settings;
 }
 
-/// Takes in and hands on what came, for at most `longest_wait_s`. Interactions go on at once, not with the tick, so that keys are stamped when they arrive.
-void Serving::exchange(double longest_wait_s) {
-  host_.poll(nanoseconds(std::max(0.0, longest_wait_s)));
-  host_.flush();
-  endpoint_.poll({}, links_);
-  link_.flush(now_s());
-}
-
-void Serving::exchange_until(double until_s) {
-  do exchange(std::min(0.25, until_s - now_s()));
+void ServerProcess::exchange_until(double until_s) {
+  do serving_.exchange(std::min(0.25, until_s - now_s()));
   while (now_s() < until_s && !is_interrupted);
 }
 
 /// However long the players think, silence is noticed and the RTI is heard to live.
-void Serving::await_turns() {
+void ServerProcess::await_turns() {
   while (!is_interrupted && server_.trouble().empty() && !server_.all_turns_done()) {
-    exchange(0.25);
-    host_.advance_clock(now_s());
+    serving_.exchange(0.25);
+    serving_.host().advance_clock(now_s());
   }
 }
 
-bool Serving::start() {
+bool ServerProcess::start() {
   const double give_up_s = now_s() + options_.patience_s;
-  Costs uncounted;
+  game::TickCosts uncounted;
   while (!is_interrupted && (!server_.is_joined() || server_.player_count() < options_.clients)) {
     if (now_s() > give_up_s) return false;
-    exchange(0.02);
-    if (server_.is_joined()) send_tick(0.0, not_started_s, uncounted);
-    host_.advance_clock(now_s());
+    serving_.exchange(0.02);
+    if (server_.is_joined()) serving_.send(0.0, not_started_s, uncounted);
+    serving_.host().advance_clock(now_s());
   }
   server_.call_to_start();
   while (!is_interrupted && !server_.is_started()) {
     if (now_s() > give_up_s) return false;
-    exchange(0.005);
-    send_tick(0.0, not_started_s, uncounted);
+    serving_.exchange(0.005);
+    serving_.send(0.0, not_started_s, uncounted);
   }
   return true;
 }
 
-/// Publishes, matches and flushes: what leaves the server in one tick, one write per destination.
-void Serving::send_tick(double simulated_s, double due_s, Costs& costs) {
-  Stopwatch watch;
-  server_.publish({.time = simulated_s, .tag = static_cast<std::uint64_t>(due_s * 1e9)});
-  link_.flush(now_s());
-  host_.poll({});
-  watch.add_to(costs.send_s);
-  host_.match();
-  watch.add_to(costs.filter_s);
-  host_.flush();
-  watch.add_to(costs.send_s);
-}
-
-void Serving::tick(std::uint64_t number) {
+void ServerProcess::tick(std::uint64_t number) {
   const double period_s = 1.0 / options_.rate_hz, simulated_s = static_cast<double>(number) * period_s;
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + simulated_s;
-  Costs uncounted;
-  const bool is_counted = simulated_s >= options_.warm_up_s;
-  Costs& costs = is_counted ? costs_ : uncounted;
-  Stopwatch watch;
-  server_.simulate(simulated_s);
-  watch.add_to(costs.physics_s);
-  send_tick(simulated_s, due_s, costs);
-  ++costs.ticks;
-  if (now_s() <= due_s + period_s) ++costs.ticks_on_time;
-  host_.advance_clock(now_s());
+  const game::TickCosts tick = serving_.tick(simulated_s, due_s);
+  if (simulated_s < options_.warm_up_s) return;
+  costs_.physics_s += tick.physics_s;
+  costs_.filter_s += tick.filter_s;
+  costs_.send_s += tick.send_s;
+  ++costs_.ticks;
+  if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
 }
 
-void Serving::run() {
+void ServerProcess::run() {
   constexpr double lead_s = 0.1;  // so that the first tick is not late
   start_s_ = now_s() + lead_s;
   const std::uint64_t last = options_.duration_s > 0.0 ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9)) : ~0ull;
@@ -205,22 +158,31 @@ void Serving::run() {
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
-      costs_.begin = execution_.counters();
+      costs_.begin = serving_.execution().counters();
       costs_.tcp_begin = tcp_.totals();
     }
     tick(number);
   }
   costs_.span_s = is_measuring ? now_s() - measured_from_s : 0.0;
-  costs_.end = execution_.counters();
+  costs_.end = serving_.execution().counters();
   costs_.tcp_end = tcp_.totals();
 }
 
-void Serving::end() {
+void ServerProcess::end() {
   const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
-  while (server_.player_count() > 0 && now_s() < give_up_s) exchange(0.01);
+  while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
 }
 
-Json Serving::report() const {
+std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneChoice& choice) const {
+  std::optional<game::ServerEvidence> evidence = serving_.evidence();
+  if (!evidence) return std::nullopt;
+  evidence->choice = choice;
+  evidence->scheme = options_.scheme;
+  evidence->policy = options_.policy;
+  return evidence;
+}
+
+Json ServerProcess::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
   const rti::FederationCounters& begin = costs_.begin;
   const rti::FederationCounters& end = costs_.end;
@@ -244,17 +206,20 @@ Json Serving::report() const {
           {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
           {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
           {"server_rss_bytes", game::resident_bytes()},
+          {"evidence_bytes", serving_.evidence_bytes()},
           {"state_hash", hash},
           {"measured_s", costs_.span_s},
           {"bytes_sent", costs_.tcp_end.bytes_sent - costs_.tcp_begin.bytes_sent},
           {"bytes_received", costs_.tcp_end.bytes_received - costs_.tcp_begin.bytes_received},
           {"writes_sent", costs_.tcp_end.writes - costs_.tcp_begin.writes},
           {"segments_sent", costs_.tcp_end.segments_sent - costs_.tcp_begin.segments_sent},
+          {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
+          {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
           {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
           {"scope_entries", end.scope_entries - begin.scope_entries},
           {"scope_exits", end.scope_exits - begin.scope_exits},
           {"lost_federates", server_.counters().federates_lost},
-          {"dropped_connections", dropped + host_.closed_by_full_queue()},
+          {"dropped_connections", dropped + serving_.host().closed_by_full_queue()},
           {"keys_received", server_.counters().keys_received},
           {"keys_applied", server_.counters().keys_applied},
           {"keys_refused", server_.counters().keys_refused},
@@ -262,7 +227,7 @@ Json Serving::report() const {
           {"why_invalid", why_invalid}};
 }
 
-void Serving::add_totals(Json& report) const {
+void ServerProcess::add_totals(Json& report) const {
   const rti::TransportCounters total = tcp_.totals();
   report["total_bytes_sent"] = total.bytes_sent;
   report["total_bytes_received"] = total.bytes_received;
@@ -279,8 +244,10 @@ void require_room(const game::ServeOptions& options, const game::Scene& scene) {
   const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
   if (body_count > body_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
+  if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
   game::require_writable("--report", options.report);
   game::require_writable("--record", options.record);
+  game::require_writable("--evidence", options.evidence);
 }
 
 game::ExitStatus serve(game::ServeOptions& options) {
@@ -292,10 +259,9 @@ game::ExitStatus serve(game::ServeOptions& options) {
     options.address = file.nodes.front().address;
     options.port = file.nodes.front().port;
   }
-  const rti::Fom fom = rti::Fom::load(fom_path);
-  game::Scene scene = game::load_scene(options.scene);
-  if (options.bats > 0) scene = game::scaled_to_bats(scene, options.bats);
-  if (options.seed > 0) scene = game::with_seed(scene, options.seed);
+  const rti::Fom fom = game::load_rink_fom(fom_path);
+  const game::SceneChoice choice{.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
+  const game::Scene scene = game::chosen_scene(choice);
   require_room(options, scene);
   std::optional<std::vector<game::InputEvent>> replay;
   if (!options.keys.empty()) {
@@ -305,27 +271,29 @@ game::ExitStatus serve(game::ServeOptions& options) {
   }
 
   rti::ensure_file_limit(options.clients + 64u);
-  Serving serving(options, fom, scene, federation, std::move(replay));
-  const std::uint16_t port = serving.listen();
+  ServerProcess process(options, fom, scene, federation, std::move(replay));
+  const std::uint16_t port = process.listen();
   std::printf("listening on %s:%u\n", options.address.c_str(), static_cast<unsigned>(port));
   std::fflush(stdout);
-  const bool is_complete = serving.start();
-  if (is_complete) serving.run();
-  Json report = serving.report();
+  const bool is_complete = process.start();
+  if (is_complete) process.run();
+  Json report = process.report();
+  std::optional<game::ServerEvidence> evidence = process.evidence(choice);  // before the players leave, for the hash is of now
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
-  serving.end();
-  serving.add_totals(report);
+  process.end();
+  process.add_totals(report);
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
+  if (evidence) game::write_evidence(options.evidence, *evidence);
   if (!options.record.empty()) {
     game::KeyLog log = game::key_log_for(scene);
     log.scene = options.scene;
-    log.events = serving.server().record();
+    log.events = process.server().record();
     game::write_key_log(options.record, log);
   }
   if (is_interrupted) return game::ExitStatus::interrupted;
   if (!is_complete) {
-    spdlog::error("{} of {} players came within {} s", serving.server().player_count(), options.clients, options.patience_s);
+    spdlog::error("{} of {} players came within {} s", process.server().player_count(), options.clients, options.patience_s);
     return game::ExitStatus::nobody_came;
   }
   return game::ExitStatus::ok;

@@ -13,9 +13,9 @@
 namespace rink::game {
 
 struct ServeOptions {
-  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, pace = "realtime";
+  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, pace = "realtime";
   std::uint16_t port = 4711;
-  std::uint32_t bats = 0, clients = 0;
+  std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0;
 };
@@ -25,12 +25,15 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region --duration 30 --report server.json\n\n") + exit_status_help);
   app.add_option("--scene", options.scene, "preset (match, crowd) or TOML file")->capture_default_str();
   app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
+  app.add_option("--bat-count", options.bat_count, "so many bats on the same field instead; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
+  app.add_option("--puck-count", options.puck_count, "so many pucks on the same field instead; 0: as it is")->check(number_from(0, pucks_max))->capture_default_str();
   app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
   app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
   app.add_option("--address", options.address, "to listen on")->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(number_from(0.0, 1e6))->capture_default_str();
+  app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();
   app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
@@ -42,6 +45,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(number_from(0.001, seconds_max))->capture_default_str();
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
   app.add_option("--record", options.record, "file for the key log of this run");
+  app.add_option("--evidence", options.evidence, "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 

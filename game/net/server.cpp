@@ -10,7 +10,13 @@
 namespace rink::game {
 
 Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings, std::function<double()> now)
-    : model_(fom), now_(std::move(now)), game_(scene), is_replay_(settings.replay.has_value()), policy_(make_update_policy(settings.policy)), ambassador_(fom, *this) {
+    : model_(fom),
+      now_(std::move(now)),
+      game_(scene),
+      is_replay_(settings.replay.has_value()),
+      policy_(make_update_policy(settings.policy)),
+      sweep_(settings.sweep_ticks, settings.tick_s),
+      ambassador_(fom, *this) {
   assert(policy_ && "the command line is checked against update_policy_names()");
   is_taken_.resize(game_.player_count());
   felt_.resize(game_.player_count());
@@ -23,7 +29,7 @@ void Server::joined(rti::FederateHandle) {
   ambassador_.watch_federates();
   ambassador_.publish_interaction_class(model_.seat);
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.subscribe_interaction_class(interaction);
-  publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_);
+  publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_, sweep_);
 }
 
 void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
@@ -131,6 +137,12 @@ void Server::offer_seats() {
     offer_seat(rti::FederateHandle{federate}, {.bat = seat->player, .position = rounded(game_.position(*bat))});
     seat->is_offered = true;
   }
+}
+
+std::optional<rti::FederateHandle> Server::federate_of(std::uint32_t player) const {
+  for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
+    if (seats_[federate] && seats_[federate]->player == player) return rti::FederateHandle{federate};
+  return std::nullopt;
 }
 
 Server::Seat* Server::seat_of(rti::FederateHandle federate) {

@@ -17,6 +17,8 @@ namespace rink::game {
 struct ServerSettings {
   std::string federation = "rink";
   std::string policy = "periodic";
+  std::uint32_t sweep_ticks = 0;  ///< see RegionSweep
+  double tick_s = 1.0 / 30.0;     ///< simulated time between two ticks [s]; only the sweep needs to know
   /// A recorded key log that moves the bats instead of the players' own keys, so that compared runs play the very same game.
   /// Live keys are then received, counted and acknowledged as ever, but not applied; nor are players' comings and goings.
   std::optional<std::vector<InputEvent>> replay;
@@ -53,6 +55,8 @@ class Server : public rti::FederateAmbassador {
 
   /// The RTI object of an entity of the game.
   rti::ObjectHandle object(EntityId entity) const { return publisher_->object(entity); }
+  /// The federate that plays `player`, if any does.
+  std::optional<rti::FederateHandle> federate_of(std::uint32_t player) const;
   /// Every input applied so far, as stamped: a log that replays to the same state hash.
   const std::vector<InputEvent>& record() const { return record_; }
   const ServerCounters& counters() const { return counters_; }
@@ -90,6 +94,7 @@ class Server : public rti::FederateAmbassador {
   Game game_;
   bool is_replay_;
   std::unique_ptr<UpdatePolicy> policy_;
+  RegionSweep sweep_;
   rti::Ambassador ambassador_;
   std::unique_ptr<Publisher> publisher_;
   std::vector<std::optional<Seat>> seats_;  ///< by federate

@@ -6,23 +6,19 @@
 namespace rink::game {
 
 void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class) {
-  const std::uint32_t block = object.value / rti::object_block, number = object.value % rti::object_block;
-  if (block >= known_.size()) known_.resize(block + 1);
-  if (number >= known_[block].size()) known_[block].resize(number + 1);
-  Known& known = known_[block][number];
-  if (known.kind != Kind::unknown) return;
+  if (known_.find(object) != nullptr) return;
   if (object_class == model_.entity) {
-    known = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
-    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .stamp = {}, .in_scope = false});
+    known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
+    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .in_scope = false});
   } else if (object_class == model_.score) {
-    known.kind = Kind::score;
+    known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {
-    known.kind = Kind::field;
+    known_[object].kind = Kind::field;
   }
 }
 
 void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
-  const Known* told = known(object);
+  const Known* told = known_.find(object);
   if (told == nullptr) return;
   ++counters_.updates;
   newest_ = stamp;
@@ -34,7 +30,7 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
   } else if (told->kind == Kind::score) {
     is_sound = decode(values, goals_);
   } else if (told->kind == Kind::field) {
-    is_sound = decode(values, field_.emplace());
+    is_sound = reflect_field(attributes, values);
   }
   if (!is_sound) ++counters_.malformed;
 }
@@ -42,13 +38,41 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
 bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values) {
   if (attributes == position_) return decode(values, entity.position);  // nearly all of the traffic
   rti::Reader reader(values);
+  if (attributes == trajectory_) {
+    Trajectory heard;
+    if (!exchange(reader, heard) || !reader.is_at_end()) return false;
+    entity.trajectory = heard;
+    follow_law(entity);
+    return true;
+  }
   MirroredEntity heard = entity;
   if (attributes.contains(model_.shape) && !exchange(reader, heard.shape)) return false;
   if (attributes.contains(model_.input) && !exchange(reader, heard.input)) return false;
   if (attributes.contains(model_.position) && !exchange(reader, heard.position)) return false;
+  if (attributes.contains(model_.trajectory) && !exchange(reader, heard.trajectory.emplace())) return false;
   if (!reader.is_at_end()) return false;
+  follow_law(heard);
   entity = heard;
   return true;
+}
+
+bool Mirror::reflect_field(rti::AttributeSet attributes, rti::Bytes values) {
+  rti::Reader reader(values);
+  Extent extent;
+  Drag drag = drag_;
+  if (attributes.contains(model_.extent) && !exchange(reader, extent)) return false;
+  if (attributes.contains(model_.drag) && !exchange(reader, drag)) return false;
+  if (!reader.is_at_end()) return false;
+  if (attributes.contains(model_.extent)) field_ = extent;
+  drag_ = drag;
+  for (MirroredEntity& each : entities_) follow_law(each);
+  return true;
+}
+
+void Mirror::follow_law(MirroredEntity& entity) const {
+  if (!entity.trajectory) return;
+  entity.motion = motion_of(*entity.trajectory, drag_.of(static_cast<physics::BodyKind>(entity.shape.kind)));
+  entity.position = rounded(entity.motion.position);
 }
 
 void Mirror::set_scope(rti::ObjectHandle object, bool in_scope) {
@@ -60,20 +84,15 @@ void Mirror::set_scope(rti::ObjectHandle object, bool in_scope) {
 
 void Mirror::remove(rti::ObjectHandle object) {
   if (entity(object) == nullptr) return;
-  const std::uint32_t slot = known(object)->slot;
-  known(entities_.back().object)->slot = slot;
+  const std::uint32_t slot = known_.find(object)->slot;
+  known_.find(entities_.back().object)->slot = slot;
   entities_[slot] = entities_.back();
   entities_.pop_back();
-  *known(object) = {};
-}
-
-Mirror::Known* Mirror::known(rti::ObjectHandle object) {
-  const std::uint32_t block = object.value / rti::object_block, number = object.value % rti::object_block;
-  return block < known_.size() && number < known_[block].size() ? &known_[block][number] : nullptr;
+  known_.erase(object);
 }
 
 MirroredEntity* Mirror::entity(rti::ObjectHandle object) {
-  const Known* told = known(object);
+  const Known* told = known_.find(object);
   return told != nullptr && told->kind == Kind::entity ? &entities_[told->slot] : nullptr;
 }
 

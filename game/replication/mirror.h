@@ -1,6 +1,7 @@
 // What one federate knows of the rink: the entities in its interest as it was last told, and nothing else.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,7 +10,9 @@
 
 #include "game/replication/attributes.h"
 #include "game/replication/object_model.h"
+#include "game/replication/trajectory.h"
 #include "rti/ambassador.h"
+#include "rti/object_map.h"
 
 namespace rink::game {
 
@@ -18,9 +21,17 @@ struct MirroredEntity {
   rti::ObjectHandle object;
   Shape shape;
   Input input;
-  Position position;
+  Position position;                    ///< as last told; of those that are told trajectories, where it began
+  std::optional<Trajectory> trajectory; ///< as last told; of entities that are told trajectories
+  physics::Motion motion;               ///< the law it stands for
   rti::Stamp stamp;       ///< of the newest update
   bool in_scope = false;  ///< false: it left the federate's interest, the rest is what was true then
+
+  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if it was told one, else where it was last told.
+  physics::Vector2 position_at(double instant) const {
+    if (!trajectory) return {static_cast<double>(position.x), static_cast<double>(position.y)};
+    return trajectory->is_resting() ? motion.position : motion.at(std::max(instant, motion.time)).position;
+  }
 };
 
 /// Counts of what came in; malformed values are counted, not applied.
@@ -31,7 +42,7 @@ struct MirrorCounters {
 /// Applies the RTI's callbacks about objects. Look-ups take constant time; nothing is allocated once all entities are known.
 class Mirror {
  public:
-  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position} {}
+  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position}, trajectory_{model.trajectory} {}
 
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
   void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
@@ -45,26 +56,31 @@ class Mirror {
 
   const Goals& goals() const { return goals_; }
   const std::optional<Extent>& field() const { return field_; }
+  const Drag& drag() const { return drag_; }
   const rti::Stamp& newest() const { return newest_; }  ///< the stamp of the newest update of any object
   const MirrorCounters& counters() const { return counters_; }
+  /// Of tables, the mirror itself not counted.
+  std::size_t memory_bytes() const { return known_.memory_bytes() + entities_.capacity() * sizeof(MirroredEntity); }
 
  private:
-  enum class Kind : std::uint8_t { unknown, entity, score, field };
+  enum class Kind : std::uint8_t { entity, score, field };
   struct Known {
-    Kind kind = Kind::unknown;
+    Kind kind = Kind::entity;
     std::uint32_t slot = 0;  ///< in entities_
   };
 
-  Known* known(rti::ObjectHandle object);
   MirroredEntity* entity(rti::ObjectHandle object);
   bool reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values);
+  bool reflect_field(rti::AttributeSet attributes, rti::Bytes values);
+  void follow_law(MirroredEntity& entity) const;
 
   const ObjectModel& model_;
-  const rti::AttributeSet position_;
-  std::vector<std::vector<Known>> known_;  ///< by object handle: its block, then its number within it
+  const rti::AttributeSet position_, trajectory_;
+  rti::ObjectMap<Known> known_;
   std::vector<MirroredEntity> entities_;
   Goals goals_;
   std::optional<Extent> field_;
+  Drag drag_;
   rti::Stamp newest_;
   MirrorCounters counters_;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "game/replication/attributes.h"
+#include "game/replication/trajectory.h"
 
 namespace rink::game {
 namespace {
@@ -45,8 +46,10 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       shape(attribute<Shape>(fom, entity, "shape")),
       input(attribute<Input>(fom, entity, "input")),
       position(attribute<Position>(fom, entity, "position")),
+      trajectory(attribute<Trajectory>(fom, entity, "trajectory")),
       goals(attribute<Goals>(fom, score, "goals")),
       extent(attribute<Extent>(fom, field, "extent")),
+      drag(attribute<Drag>(fom, field, "drag")),
       key_down(interaction_class(fom, "KeyDown")),
       key_up(interaction_class(fom, "KeyUp")),
       update(interaction_class(fom, "Update")),

@@ -12,9 +12,9 @@ struct ObjectModel {
   explicit ObjectModel(const rti::Fom& fom);
 
   rti::ObjectClassHandle entity, score, field;
-  rti::AttributeHandle shape, input, position;  ///< of entity
+  rti::AttributeHandle shape, input, position, trajectory;  ///< of entity
   rti::AttributeHandle goals;                   ///< of score
-  rti::AttributeHandle extent;                  ///< of field
+  rti::AttributeHandle extent, drag;            ///< of field
   rti::InteractionClassHandle key_down, key_up, update, seat;
 };
 

@@ -1,35 +1,28 @@
 // Registers what came, deletes what went, and sends what moved, in that order.
 #include "game/replication/publisher.h"
 
-#include <array>
-
 #include "game/replication/names.h"
+#include "game/replication/trajectory.h"
 
 namespace rink::game {
-namespace {
-
-im::Region bounding_box(const physics::Vector2& centre, const physics::Vector2& half_extent) {
-  return {centre.x() - half_extent.x(), centre.y() - half_extent.y(), centre.x() + half_extent.x(), centre.y() + half_extent.y()};
-}
-
-}  // namespace
-
-Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game)
-    : model_(model), ambassador_(ambassador), policy_(policy) {
-  ambassador_.publish_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position});
+Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game, const RegionSweep& sweep)
+    : model_(model), ambassador_(ambassador), policy_(policy), motion_(policy.motion_attribute(model)), sweep_(sweep) {
+  ambassador_.publish_object_class_attributes(model_.entity, {model_.shape, model_.input, motion_});
   ambassador_.publish_object_class_attributes(model_.score, {model_.goals});
-  ambassador_.publish_object_class_attributes(model_.field, {model_.extent});
+  ambassador_.publish_object_class_attributes(model_.field, {model_.extent, model_.drag});
   field_ = ambassador_.register_object_instance(model_.field, "field");
   score_ = ambassador_.register_object_instance(model_.score, "score");
   const physics::Field& field = game.world().spec().field;
   const Extent extent{.length = static_cast<float>(field.length), .width = static_cast<float>(field.width)};
-  ambassador_.update_attribute_values(field_, {model_.extent}, encode(encoded_, extent), {});
+  const Drag drag{.pucks = game.world().spec().puck_drag, .bats = game.world().spec().bat_drag};
+  ambassador_.update_attribute_values(field_, {model_.extent, model_.drag}, encode(encoded_, extent, drag), {});
   ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals_), {});
 }
 
 void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp) {
   ++tick_;
   moved_.clear();
+  sweep_.look_at(game.world());
   for (const Entity& entity : game.entities()) {
     Input input;
     if (entity.player) input = {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u, .held = game.keys_held(*entity.player).bits()};
@@ -52,38 +45,59 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input, 
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
   published.input = input;
-  ambassador_.set_region(published.region, bounding_box(game.position(entity.id), entity.half_extent));
+  ambassador_.set_region(published.region, sweep_.is_on() ? sweep_.region(game.world(), entity.id, published.swept) : bounding_box(game.position(entity.id), entity.half_extent));
   ambassador_.commit_region_modifications(published.region);
   ambassador_.associate_regions_for_updates(published.object, published.region);
   const Shape shape{.kind = static_cast<std::uint8_t>(entity.kind),
                     .team = static_cast<std::uint8_t>(entity.team),
                     .half_length = static_cast<float>(entity.half_extent.x()),
                     .half_width = static_cast<float>(entity.half_extent.y())};
-  ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, model_.position}, encode(encoded_, shape, input, published.position), stamp);
+  encode(encoded_, shape, input);
+  rti::Writer writer(encoded_);
+  policy_.write(game, entity, writer);
+  ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, motion_}, encoded_, stamp);
 }
 
-/// Position if the policy says so, input if it changed; the region if the entity moved at all.
+/// The update region, which follows the entity whether or not anything is sent.
+void Publisher::follow(const Game& game, const Entity& entity, Published& published) {
+  if (sweep_.is_on()) {
+    if (sweep_.still_holds(game.world(), entity.id, published.swept)) return;
+    moved_.push_back({published.region, sweep_.region(game.world(), entity.id, published.swept)});
+  } else {
+    if (entity.kind == physics::BodyKind::post) return;
+    const physics::Vector2 centre = game.position(entity.id);
+    const Position position = rounded(centre);
+    if (position == published.position) return;
+    published.position = position;
+    moved_.push_back({published.region, bounding_box(centre, entity.half_extent)});
+  }
+  ++counters_.regions_moved;
+}
+
+/// Motion if the policy says so, input if it changed, in one update.
 void Publisher::update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
+  follow(game, entity, published);
   const bool is_due = policy_.is_due(game, entity), has_felt = input != published.input;
   if (!is_due && !has_felt) {
     ++counters_.entities_skipped;
     return;
   }
-  const physics::Vector2 centre = game.position(entity.id);
-  const Position position = rounded(centre);
-  if (position != published.position) {
-    moved_.push_back({published.region, bounding_box(centre, entity.half_extent)});
-    published.position = position;
-    ++counters_.regions_moved;
+  rti::AttributeSet sent;
+  encoded_.clear();
+  rti::Writer writer(encoded_);
+  if (has_felt) {
+    published.input = input;
+    sent.insert(model_.input);
+    exchange(writer, published.input);
   }
-  counters_.positions_sent += is_due ? 1u : 0u;
+  if (is_due) {
+    sent.insert(motion_);
+    policy_.write(game, entity, writer);
+  }
+  counters_.motions_sent += is_due ? 1u : 0u;
   counters_.inputs_sent += has_felt ? 1u : 0u;
-  published.input = input;
-  if (!has_felt)
-    ambassador_.update_attribute_values(published.object, {model_.position}, encode(encoded_, position), stamp);
-  else
-    ambassador_.update_attribute_values(published.object, {model_.input, model_.position}, encode(encoded_, input, position), stamp);
+  ambassador_.update_attribute_values(published.object, sent, encoded_, stamp);
 }
 
 /// Deletes what was published once but is no longer in the game.

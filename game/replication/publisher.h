@@ -8,6 +8,7 @@
 #include "game/control/game.h"
 #include "game/replication/attributes.h"
 #include "game/replication/object_model.h"
+#include "game/replication/region_sweep.h"
 #include "game/replication/update_policy.h"
 #include "rti/ambassador.h"
 
@@ -15,17 +16,17 @@ namespace rink::game {
 
 /// What a publisher sent since it was made.
 struct PublisherCounters {
-  std::uint64_t positions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
+  std::uint64_t motions_sent = 0, inputs_sent = 0, regions_moved = 0, entities_skipped = 0;
 };
 
 /// Registers a game's entities as RTI objects, each with its bounding box as update region, and keeps both up to date.
-/// What did not change is not sent again, except positions where the policy says so.
+/// Motion goes out when and as the policy says, the rest when it changes.
 class Publisher {
  public:
   /// `ambassador` must have joined. Publishes the classes and registers the field and the score.
-  Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game);
+  Publisher(const ObjectModel& model, rti::Ambassador& ambassador, UpdatePolicy& policy, const Game& game, const RegionSweep& sweep = {});
 
-  /// Hands everything new to the ambassador: entities that came or went, moved regions, due positions, felt keys, the score.
+  /// Hands everything new to the ambassador: entities that came or went, moved regions, due motions, felt keys, the score.
   /// `felt[k]` is the number of player k's key events that the game has felt; players beyond its end felt none.
   void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
 
@@ -38,19 +39,23 @@ class Publisher {
   struct Published {
     rti::ObjectHandle object;
     rti::RegionHandle region;
-    Position position;
+    Position position;  ///< that its region was last moved to
     Input input;
     std::uint64_t tick = 0;  ///< of its last appearance in the game
+    RegionSweep::Swept swept;
   };
 
   void add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
   void retire_absent();
+  void follow(const Game& game, const Entity& entity, Published& published);
   void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
 
   const ObjectModel& model_;
   rti::Ambassador& ambassador_;
   UpdatePolicy& policy_;
+  const rti::AttributeHandle motion_;
+  RegionSweep sweep_;
   std::vector<Published> published_;  ///< by entity
   std::vector<rti::RegionBounds> moved_;
   std::vector<std::byte> encoded_;

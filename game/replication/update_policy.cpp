@@ -1,22 +1,66 @@
-// The paper's policy: the position of all that can move, every tick.
+// The paper's policy, positions every tick, and the one of exact motion, a trajectory when it changes.
 #include "game/replication/update_policy.h"
+
+#include "game/replication/attributes.h"
+#include "game/replication/trajectory.h"
 
 namespace rink::game {
 namespace {
 
 class Periodic : public UpdatePolicy {
  public:
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.position; }
   /// Posts never move: their position is part of the state that a federate gets when they enter its interest.
   bool is_due(const Game&, const Entity& entity) override { return entity.kind != physics::BodyKind::post; }
+  void write(const Game& game, const Entity& entity, rti::Writer& value) override {
+    Position position = rounded(game.position(entity.id));
+    exchange(value, position);
+  }
+};
+
+/// Sends where a body is, how fast and by which law when the one told last no longer foretells it; between, receivers evaluate the engine's own closed form.
+class OnEvent : public UpdatePolicy {
+ public:
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.trajectory; }
+
+  bool is_due(const Game& game, const Entity& entity) override {
+    if (entity.kind == physics::BodyKind::post) return false;
+    Told& told = told_[entity.id.index];
+    const std::uint32_t version = game.world().motion_version(entity.id);
+    if (version == told.version && game.now() <= told.until_s) return false;
+    // An event that changes next to nothing, as those of bodies pressed to each other, need not be told.
+    told.version = version;
+    told.until_s = holds_until(game.world(), entity.id, told.trajectory);
+    return told.until_s < game.now() + worthwhile_s;
+  }
+
+  void write(const Game& game, const Entity& entity, rti::Writer& value) override {
+    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
+    Told& told = told_[entity.id.index];
+    told.version = game.world().motion_version(entity.id);
+    told.trajectory = trajectory_of(game.world(), entity.id);
+    told.until_s = holds_until(game.world(), entity.id, told.trajectory);
+    exchange(value, told.trajectory);
+  }
+
+ private:
+  static constexpr double worthwhile_s = 0.1;  ///< one that is to be replaced so soon may as well be replaced now
+  struct Told {
+    std::uint32_t version = 0;
+    double until_s = 0.0;
+    Trajectory trajectory;
+  };
+  std::vector<Told> told_;  ///< by entity
 };
 
 }  // namespace
 
 std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name) {
   if (name == "periodic") return std::make_unique<Periodic>();
+  if (name == "on-event") return std::make_unique<OnEvent>();
   return nullptr;
 }
 
-std::vector<std::string> update_policy_names() { return {"periodic"}; }
+std::vector<std::string> update_policy_names() { return {"periodic", "on-event"}; }
 
 }  // namespace rink::game

@@ -1,4 +1,4 @@
-// When an entity's motion is sent. Each policy is one class; the publisher asks it once for each entity and tick.
+// When an entity's motion is sent, and as what. Each policy is one class; the publisher asks it once for each entity and tick.
 #pragma once
 
 #include <memory>
@@ -6,14 +6,21 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/replication/object_model.h"
+#include "rti/stream.h"
 
 namespace rink::game {
 
-/// Decides, for every entity and tick, whether its position goes out.
+/// Decides, for every entity and tick, whether its motion goes out.
 class UpdatePolicy {
  public:
   virtual ~UpdatePolicy() = default;
+  /// The attribute of Entity that holds the motion.
+  virtual rti::AttributeHandle motion_attribute(const ObjectModel& model) const = 0;
+  /// Asked of entities that were written before.
   virtual bool is_due(const Game& game, const Entity& entity) = 0;
+  /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity that is new, later when it is due.
+  virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
 };
 
 /// The policy called `name`, or nothing if there is none. Names: see `update_policy_names`.

@@ -1,6 +1,8 @@
 // Steps server, RTI and clients by turns; a round in which nothing is sent ends the exchange.
 #include "tests/net/lockstep_rink.h"
 
+#include "game/replication/trajectory_codec.h"
+
 namespace rink::game {
 namespace {
 
@@ -16,7 +18,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
 
 LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
     : settings_(settings),
-      fom_(rti::Fom::load(RINK_SOURCE_DIR "/game/net/rink.fom.xml")),
+      fom_(load_rink_fom(RINK_SOURCE_DIR "/game/net/rink.fom.xml")),
       model_(fom_),
       hub_(network_),
       server_endpoint_(network_),
@@ -57,7 +59,7 @@ void LockstepRink::settle() {
     for (const std::unique_ptr<Player>& player : clients_) {
       player->endpoint.poll({}, player->links);
       if (player->is_dead) continue;
-      player->client->follow_bat();
+      player->client->follow_bat(now);
       player->link->flush(now);
     }
   }
@@ -79,6 +81,7 @@ void LockstepRink::send_tick(double time) {
   host_.poll({});
   host_.match();
   host_.flush();
+  host_.advance_clock(now);
 }
 
 void LockstepRink::tick() {

@@ -44,6 +44,7 @@ class LockstepRink {
   Server& server() { return *server_; }
   Client& client(std::size_t index) { return *clients_[index]->client; }
   std::size_t client_count() const { return clients_.size(); }
+  const std::string& scheme() const { return settings_.scheme; }
   rti::FederationExecution& execution() { return execution_; }
   /// Simulated time of the next key: tests set it between two ticks.
   double now = 0.0;

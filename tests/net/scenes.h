@@ -2,7 +2,7 @@
 #pragma once
 
 #include "game/model/scene_file.h"
-#include "loadgen/plan.h"
+#include "game/players/random_plan.h"
 
 namespace rink::game {
 
@@ -13,7 +13,7 @@ inline Scene match() { return load_scene(RINK_SOURCE_DIR "/scenes/match.toml"); 
 
 /// Keys for every bat of `scene`.
 inline std::vector<InputEvent> keys_for(const Scene& scene, std::uint64_t seed, double seconds) {
-  return loadgen::random_plan(seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), seconds);
+  return game::random_plan(seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), seconds);
 }
 
 }  // namespace rink::game

@@ -1,0 +1,124 @@
+// The server's evidence as lines: a header with counts, ticks, keys, object names, then one line per sampled decision.
+#include "game/net/evidence.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "game/net/evidence_lines.h"
+
+namespace rink::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int version = 1;
+
+std::string hexadecimal(std::uint64_t number) {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016" PRIx64, number);
+  return digits;
+}
+
+/// Ascending numbers as first and length of each run: what `none` decides is one run.
+Json runs_of(std::span<const std::uint32_t> numbers) {
+  Json runs = Json::array();
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t end = i + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    runs.push_back(numbers[i]);
+    runs.push_back(end - i);
+    i = end;
+  }
+  return runs;
+}
+
+void append_runs(const nlohmann::json& runs, std::vector<std::uint32_t>& numbers, const EvidenceReader& reader) {
+  constexpr std::uint64_t length_max = 1'000'000;
+  if (runs.size() % 2 != 0) reader.refuse("pairs of first and length");
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    const auto first = runs[i].get<std::uint32_t>();
+    const auto length = runs[i + 1].get<std::uint64_t>();
+    if (length == 0 || length > length_max) reader.refuse("runs of 1 to 1,000,000 objects");
+    for (std::uint32_t k = 0; k < length; ++k) numbers.push_back(first + k);
+  }
+}
+
+Json header_of(const ServerEvidence& evidence) {
+  return {{"rink-server-evidence", version}, {"scene", evidence.choice.scene}, {"bats", evidence.choice.bats}, {"bat_count", evidence.choice.bat_count},
+          {"puck_count", evidence.choice.puck_count}, {"seed", evidence.choice.seed}, {"scheme", evidence.scheme}, {"policy", evidence.policy},
+          {"clients", evidence.clients}, {"rate_hz", evidence.rate_hz}, {"from_s", evidence.from_s}, {"until_s", evidence.until_s}, {"end_s", evidence.end_s},
+          {"state_hash", hexadecimal(evidence.state_hash)}, {"decisions", evidence.decisions.size()}};
+}
+
+void read_header(const nlohmann::json& line, ServerEvidence& evidence, const EvidenceReader& reader) {
+  if (line.value("rink-server-evidence", 0) != version) reader.refuse("a server's evidence of version " + std::to_string(version));
+  evidence.choice = {.scene = line.at("scene"), .bats = line.at("bats"), .bat_count = line.at("bat_count"), .puck_count = line.at("puck_count"), .seed = line.at("seed")};
+  evidence.scheme = line.at("scheme");
+  evidence.policy = line.at("policy");
+  evidence.clients = line.at("clients");
+  evidence.rate_hz = line.at("rate_hz");
+  evidence.from_s = line.at("from_s");
+  evidence.until_s = line.at("until_s");
+  evidence.end_s = line.at("end_s");
+  evidence.state_hash = std::stoull(line.at("state_hash").get<std::string>(), nullptr, 16);
+  if (!(evidence.rate_hz >= 1.0 && evidence.from_s >= 0.0 && evidence.end_s >= 0.0 && evidence.end_s <= 1e6)) reader.refuse("a rate of 1 Hz or more and instants from 0 s to 1,000,000 s");
+}
+
+InputEvent read_key(const nlohmann::json& line, const EvidenceReader& reader) {
+  const InputEvent event{.time = line.at(0), .player = line.at(1), .kind = static_cast<InputKind>(line.at(2).get<std::uint8_t>()), .key = static_cast<Key>(line.at(3).get<std::uint8_t>())};
+  if (!(event.time >= 0.0) || event.kind > InputKind::leave || std::find(all_keys.begin(), all_keys.end(), event.key) == all_keys.end())
+    reader.refuse("keys as time, player, kind and key");
+  return event;
+}
+
+ServerEvidence read_lines(EvidenceReader& reader) {
+  ServerEvidence evidence;
+  const nlohmann::json header = reader.next();
+  read_header(header, evidence, reader);
+  const nlohmann::json ticks = reader.next().at("ticks_us");
+  for (const nlohmann::json& tick : ticks) evidence.ticks.push_back({tick.at(0), 1e-6 * tick.at(1).get<double>(), 1e-6 * tick.at(2).get<double>(), 1e-6 * tick.at(3).get<double>()});
+  const nlohmann::json keys = reader.next().at("keys");
+  for (const nlohmann::json& key : keys) evidence.keys.push_back(read_key(key, reader));
+  const nlohmann::json objects = reader.next().at("objects");
+  for (const nlohmann::json& naming : objects) evidence.objects.push_back({naming.at(0), naming.at(1)});
+  for (std::size_t i = 0; i < header.at("decisions").get<std::size_t>(); ++i) {
+    const nlohmann::json line = reader.next();
+    const std::size_t first = evidence.in_scope.size();
+    append_runs(line.at("in_scope"), evidence.in_scope, reader);
+    evidence.decisions.push_back({line.at("instant_s"), line.at("player"), first, evidence.in_scope.size()});
+  }
+  return evidence;
+}
+
+}  // namespace
+
+void write_evidence(const std::string& file, const ServerEvidence& evidence) {
+  EvidenceWriter writer(file);
+  writer.line(header_of(evidence));
+  Json ticks = Json::array(), keys = Json::array(), objects = Json::array();
+  const auto us = [](double seconds) { return std::round(1e9 * seconds) * 1e-3; };
+  for (const ServerEvidence::Tick& tick : evidence.ticks) ticks.push_back({tick.simulated_s, us(tick.physics_s), us(tick.filter_s), us(tick.send_s)});
+  for (const InputEvent& event : evidence.keys) keys.push_back({event.time, event.player, static_cast<int>(event.kind), static_cast<int>(event.key)});
+  for (const ServerEvidence::Naming& naming : evidence.objects) objects.push_back({naming.object, naming.body});
+  writer.line({{"ticks_us", ticks}});
+  writer.line({{"keys", keys}});
+  writer.line({{"objects", objects}});
+  for (const ServerEvidence::Decision& decision : evidence.decisions)
+    writer.line({{"instant_s", decision.instant_s}, {"player", decision.player}, {"in_scope", runs_of(evidence.scope_of(decision))}});
+  writer.finish();
+}
+
+ServerEvidence read_server_evidence(const std::string& file) {
+  EvidenceReader reader(file);
+  try {
+    return read_lines(reader);
+  } catch (const nlohmann::json::exception& error) {
+    reader.refuse(std::string("the server's evidence as docs/metrics.md describes it (") + error.what() + ")");
+  } catch (const std::logic_error&) {
+    reader.refuse("a state_hash of hexadecimal digits");
+  }
+}
+
+}  // namespace rink::game

@@ -1,0 +1,49 @@
+// Files of evidence: a JSON value per line and a last line that proves that none is missing or altered.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace rink::game {
+
+/// Evidence that cannot be used; the message names file, line and what was expected.
+class EvidenceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes line by line; the last line is {"lines": count, "fnv1a": hash of all bytes before it}.
+class EvidenceWriter {
+ public:
+  explicit EvidenceWriter(std::string file);
+  void line(const nlohmann::ordered_json& value);
+  /// Throws std::runtime_error naming the file if anything could not be written.
+  void finish();
+
+ private:
+  std::string file_;
+  std::ofstream stream_;
+  std::uint64_t lines_ = 0, hash_;
+};
+
+/// Reads what EvidenceWriter wrote, whole or not at all.
+class EvidenceReader {
+ public:
+  /// Throws EvidenceError if the file cannot be read, has no last line as above, or differs from what it says.
+  explicit EvidenceReader(std::string file);
+  /// The next line. Throws EvidenceError if there is none or it is not JSON.
+  nlohmann::json next();
+  bool is_at_end() const { return read_ == lines_; }
+  [[noreturn]] void refuse(const std::string& expected) const;
+
+
+ private:
+  std::string file_, text_;
+  std::size_t position_ = 0;
+  std::uint64_t read_ = 0, lines_ = 0;
+};
+
+}  // namespace rink::game

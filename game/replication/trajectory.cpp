@@ -1,0 +1,84 @@
+// Rounding of trajectories, and how long a rounded one stays near the body that it stands for.
+#include "game/replication/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rink::game {
+namespace {
+
+using physics::Motion;
+using physics::Vector2;
+
+double rounded_to(double step, double value) { return std::nearbyint(value / step) * step; }
+Vector2 rounded_to(double step, const Vector2& value) { return {rounded_to(step, value.x()), rounded_to(step, value.y())}; }
+Vector2 single_precision(const Vector2& value) { return {game::single_precision(value.x()), game::single_precision(value.y())}; }
+
+/// `motion` at an instant that may be a little before its time, where Motion::at may not be asked: the same closed form run backwards.
+Motion at_or_before(const Motion& motion, double instant) {
+  if (instant >= motion.time) return motion.at(instant);
+  Motion moved = motion;
+  const double t = instant - motion.time;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double g = motion.drag[axis], lost = std::expm1(-g * t);
+    const double s = g == 0.0 ? t : -lost / g, q = g == 0.0 ? 0.5 * t * t : (t - s) / g;
+    moved.position[axis] += motion.velocity[axis] * s + motion.acceleration[axis] * q;
+    moved.velocity[axis] = motion.velocity[axis] * (1.0 + lost) + motion.acceleration[axis] * s;
+  }
+  moved.time = instant;
+  return moved;
+}
+
+double own_drag(const physics::World& world, physics::BodyId body) {
+  return world.kind(body) == physics::BodyKind::bat ? world.spec().bat_drag : world.spec().puck_drag;
+}
+
+Vector2 told_drag(const Motion& motion, double own) {
+  return {motion.drag.x() == own ? Trajectory::of_its_kind : motion.drag.x(), motion.drag.y() == own ? Trajectory::of_its_kind : motion.drag.y()};
+}
+
+bool can_move(const physics::World& world, physics::BodyId body) { return world.is_in_play(body) && !world.is_resting(body); }
+
+}  // namespace
+
+Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
+  if (!can_move(world, body)) return {.position = rounded_to(trajectory_position_step, world.position(body))};
+  const Motion motion = world.motion(body);
+  const double time = std::floor(world.now() / trajectory_time_step) * trajectory_time_step;
+  const Motion there = at_or_before(motion, time);
+  Trajectory told{.time = time,
+                  .position = rounded_to(trajectory_position_step, there.position),
+                  .velocity = rounded_to(trajectory_velocity_step, there.velocity),
+                  .acceleration = single_precision(motion.acceleration),
+                  .drag = told_drag(motion, own_drag(world, body))};
+  if (told.is_resting()) told = {.position = rounded_to(trajectory_position_step, world.position(body))};
+  return told;
+}
+
+physics::Motion motion_of(const Trajectory& told, double own_drag) {
+  const auto drag = [own_drag](double value) { return value == Trajectory::of_its_kind ? own_drag : value; };
+  return {.time = told.time, .position = told.position, .velocity = told.velocity, .acceleration = told.acceleration, .drag = {drag(told.drag.x()), drag(told.drag.y())}};
+}
+
+double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& told) {
+  constexpr double forever = std::numeric_limits<double>::infinity(), never = -forever;
+  const double now = world.now(), own = own_drag(world, body);
+  if (!can_move(world, body)) return told.is_resting() && (told.position - world.position(body)).norm() <= trajectory_error_max ? forever : never;
+  const Motion motion = world.motion(body);
+  // One that was told to rest has no law yet: a body that creeps on without thrust is compared with its own.
+  const bool is_told_to_rest = told.is_resting();
+  if (is_told_to_rest ? !motion.acceleration.isZero(0.0) : told.acceleration != single_precision(motion.acceleration) || told.drag != told_drag(motion, own)) return never;
+  const Motion exact = motion.at(std::max(now, motion.time)), followed = motion_of(told, own).at(std::max(now, told.time));
+  // The difference of two motions of one law follows that law: dp + dv s(t) + da t^2/2 at most, and s grows towards 1/g.
+  const double oldest = is_told_to_rest ? forever : told.time + trajectory_age_max;
+  const double astray = (followed.position - exact.position).norm(), growth = (followed.velocity - exact.velocity).norm();
+  const double thrust_error = (told.acceleration - motion.acceleration).norm() * 0.5 * trajectory_age_max * trajectory_age_max;
+  const double room = trajectory_error_max - astray - thrust_error, g = motion.drag.minCoeff();
+  if (room <= 0.0) return never;
+  if (growth * 1.0 <= g * room) return oldest;
+  const double s = room / growth;
+  return std::min(oldest, now + (g == 0.0 ? s : -std::log1p(-g * s) / g));
+}
+
+}  // namespace rink::game

@@ -1,0 +1,211 @@
+// Packs and unpacks trajectories; least significant bits first.
+#include "game/replication/trajectory_codec.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+
+#include "game/replication/attributes.h"
+#include "game/replication/trajectory.h"
+
+namespace rink::game {
+namespace {
+
+using physics::Vector2;
+
+enum Form : std::uint8_t { resting, near, wide, full };
+constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14, wide_position_bits = 24, wide_velocity_bits = 20;
+constexpr double near_origin = 1.0;                                      // m: what leaves play is up to so far outside the field, on the low side
+constexpr double time_window = (1u << time_bits) * trajectory_time_step;  // s: 16
+constexpr double time_ahead = 0.5;                                       // s: a trajectory may start so far after the time by which it is read
+constexpr double time_max = 1e12;                                        // s: beyond, multiples of the step are no longer exact
+constexpr std::size_t full_size = 1 + 9 * sizeof(double);
+
+class BitWriter {
+ public:
+  explicit BitWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  void put(std::uint64_t value, unsigned count) {
+    for (unsigned taken = 0; taken < count; used_ %= 8) {
+      if (used_ == 0) bytes_.push_back(std::byte{0});
+      const unsigned part = std::min(8 - used_, count - taken);
+      bytes_.back() |= static_cast<std::byte>((value >> taken & ((1u << part) - 1u)) << used_);
+      taken += part, used_ += part;
+    }
+  }
+
+ private:
+  std::vector<std::byte>& bytes_;
+  unsigned used_ = 0;
+};
+
+/// Must not be asked for more than is there.
+class BitReader {
+ public:
+  explicit BitReader(rti::Bytes bytes) : bytes_(bytes) {}
+  std::uint64_t get(unsigned count) {
+    std::uint64_t value = 0;
+    for (unsigned taken = 0; taken < count;) {
+      const unsigned part = std::min(8 - static_cast<unsigned>(at_ % 8), count - taken);
+      value |= (static_cast<std::uint64_t>(bytes_[at_ / 8]) >> at_ % 8 & ((1u << part) - 1u)) << taken;
+      taken += part, at_ += part;
+    }
+    return value;
+  }
+  std::int64_t get_signed(unsigned count) {
+    const auto value = static_cast<std::int64_t>(get(count));
+    return value >> (count - 1) == 0 ? value : value - (std::int64_t{1} << count);
+  }
+
+ private:
+  rti::Bytes bytes_;
+  std::size_t at_ = 0;
+};
+
+/// True if `value` is a multiple of `step` that fits `bits` as a signed number.
+bool fits(double value, double step, unsigned bits) {
+  const double count = value / step, limit = std::ldexp(1.0, static_cast<int>(bits) - 1);
+  return count == std::nearbyint(count) && count >= -limit && count < limit;
+}
+bool fits(const Vector2& value, double step, unsigned bits) { return fits(value.x(), step, bits) && fits(value.y(), step, bits); }
+
+/// Near positions are counted from the middle of their range.
+constexpr double near_middle = 0.5 * (1u << near_position_bits) * trajectory_position_step - near_origin;
+Vector2 from_middle(const Vector2& position) { return position - Vector2::Constant(near_middle); }
+bool is_near(const Vector2& position) {
+  const Vector2 offset = from_middle(position);
+  return fits(position, trajectory_position_step, 40) && fits(offset, trajectory_position_step, near_position_bits);
+}
+
+void put(BitWriter& bits, const Vector2& value, double step, unsigned count) {
+  for (const double each : {value.x(), value.y()}) bits.put(static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
+}
+Vector2 get(BitReader& bits, double step, unsigned count) {
+  const double x = static_cast<double>(bits.get_signed(count)) * step, y = static_cast<double>(bits.get_signed(count)) * step;
+  return {x, y};
+}
+
+bool is_of_its_kind(const Vector2& drag) { return drag == Vector2::Constant(Trajectory::of_its_kind); }
+bool is_single(double value) { return value == 0.0 || (std::abs(value) > 1e-30 && std::abs(value) < 1e30 && single_precision(value) == value); }
+bool is_single(const Vector2& value) { return is_single(value.x()) && is_single(value.y()); }
+
+/// The shortest form that loses nothing.
+Form form_of(const Trajectory& t, double time) {
+  const bool is_straight = t.acceleration.isZero(0.0) && is_of_its_kind(t.drag);
+  if (is_straight && t.time == 0.0 && t.velocity.isZero(0.0) && is_near(t.position)) return resting;
+  const bool is_timely = std::abs(time) < time_max && t.time <= time + time_ahead && t.time > time - 1.0 && fits(t.time, trajectory_time_step, 50);
+  if (!is_timely || !is_single(t.acceleration)) return full;
+  if (is_straight && is_near(t.position) && fits(t.velocity, trajectory_velocity_step, near_velocity_bits)) return near;
+  return fits(t.position, trajectory_position_step, wide_position_bits) && fits(t.velocity, trajectory_velocity_step, wide_velocity_bits) ? wide : full;
+}
+
+void append(std::vector<std::byte>& bytes, Trajectory t) {
+  rti::Writer writer(bytes);
+  [[maybe_unused]] const bool is_sound = exchange(writer, t);
+  assert(is_sound);
+}
+
+/// What is not rounded may be anything when it comes from a stranger.
+bool has_sound_law(const Trajectory& t) {
+  const auto is_drag = [](double drag) { return (std::isfinite(drag) && drag >= 0.0) || drag == Trajectory::of_its_kind; };
+  return t.acceleration.allFinite() && is_drag(t.drag.x()) && is_drag(t.drag.y());
+}
+
+void encode_law(const Trajectory& t, std::vector<std::byte>& coded) {
+  rti::Writer writer(coded);
+  if (!t.acceleration.isZero(0.0))
+    for (const double each : {t.acceleration.x(), t.acceleration.y()}) {
+      float single = static_cast<float>(each);
+      writer.number(single);
+    }
+  for (double each : {t.drag.x(), t.drag.y()})
+    if (each != Trajectory::of_its_kind) writer.number(each);
+}
+
+constexpr std::size_t wide_size = 13, wide_flags_at = form_bits + time_bits + 2 * wide_position_bits + 2 * wide_velocity_bits;
+static_assert(wide_flags_at + 3 <= 8 * wide_size && form_bits + 2 * near_position_bits <= 8 * 5 && form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits == 8 * 9);
+
+/// The latest time of that residue that is no more than `time_ahead` after `time`.
+double resolved(std::uint64_t residue, double time) {
+  const auto latest = static_cast<std::int64_t>(std::floor((time + time_ahead) / trajectory_time_step));
+  const std::int64_t behind = (latest - static_cast<std::int64_t>(residue)) & ((1 << time_bits) - 1);
+  return static_cast<double>(latest - behind) * trajectory_time_step;
+}
+
+bool decode_law(rti::Bytes coded, bool has_acceleration, const bool (&is_own)[2], Trajectory& t) {
+  rti::Reader reader(coded);
+  for (int axis = 0; has_acceleration && axis < 2; ++axis) {
+    float single = 0.0f;
+    if (!reader.number(single)) return false;
+    t.acceleration[axis] = static_cast<double>(single);
+  }
+  for (int axis = 0; axis < 2; ++axis)
+    if (!is_own[axis] && !reader.number(t.drag[axis])) return false;
+  return reader.is_at_end();
+}
+
+}  // namespace
+
+void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const {
+  Trajectory t;
+  [[maybe_unused]] const bool is_sound = game::decode(value, t);
+  assert(is_sound);
+  const Form form = form_of(t, time);
+  BitWriter bits(coded);
+  bits.put(form, form_bits);
+  if (form == full) return append(coded, t);
+  if (form != resting) bits.put(static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)), time_bits);
+  if (form == wide) put(bits, t.position, trajectory_position_step, wide_position_bits);
+  else put(bits, from_middle(t.position), trajectory_position_step, near_position_bits);
+  if (form == near) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits);
+  if (form != wide) return;
+  put(bits, t.velocity, trajectory_velocity_step, wide_velocity_bits);
+  bits.put(!t.acceleration.isZero(0.0), 1);
+  for (const double each : {t.drag.x(), t.drag.y()}) bits.put(each == Trajectory::of_its_kind, 1);
+  encode_law(t, coded);
+}
+
+std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
+  if (coded.empty()) return std::nullopt;
+  switch (static_cast<Form>(static_cast<std::uint8_t>(coded[0]) & 3u)) {
+    case resting: return 5;
+    case near: return 9;
+    case full: return full_size;
+    case wide: break;
+  }
+  if (coded.size() < wide_size) return std::nullopt;
+  const auto flags = static_cast<unsigned>(coded[wide_flags_at / 8]) >> wide_flags_at % 8;
+  return wide_size + ((flags & 1u) != 0 ? 8u : 0u) + ((flags & 2u) != 0 ? 0u : 8u) + ((flags & 4u) != 0 ? 0u : 8u);
+}
+
+bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const {
+  if (size(coded) != coded.size()) return false;
+  BitReader bits(coded);
+  const auto form = static_cast<Form>(bits.get(form_bits));
+  Trajectory t;
+  if (form == full) {
+    if (!game::decode(coded.subspan(1), t)) return false;
+    append(value, t);
+    return true;
+  }
+  if (form != resting && !(std::abs(time) < 2.0 * time_max)) return false;
+  if (form != resting) t.time = resolved(bits.get(time_bits), time);
+  t.position = form == wide ? get(bits, trajectory_position_step, wide_position_bits)
+                            : Vector2(get(bits, trajectory_position_step, near_position_bits) + Vector2::Constant(near_middle));
+  if (form != resting) t.velocity = get(bits, trajectory_velocity_step, form == near ? near_velocity_bits : wide_velocity_bits);
+  if (form == wide) {
+    const bool has_acceleration = bits.get(1) != 0, is_own_x = bits.get(1) != 0, is_own_y = bits.get(1) != 0;
+    if (!decode_law(coded.subspan(wide_size), has_acceleration, {is_own_x, is_own_y}, t)) return false;
+  }
+  if (!has_sound_law(t)) return false;
+  append(value, t);
+  return true;
+}
+
+rti::Fom load_rink_fom(const std::string& path) {
+  rti::Fom fom = rti::Fom::load(path);
+  fom.use_codec("Trajectory", std::make_shared<TrajectoryCodec>());
+  return fom;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,24 @@
+// The form in which trajectories travel: bits instead of nine doubles, and not a bit of difference.
+#pragma once
+
+#include <string>
+
+#include "rti/attribute_codec.h"
+#include "rti/fom.h"
+
+namespace rink::game {
+
+/// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"): rounded ones (game/replication/trajectory.h) in 5, 9 or 13 bytes and more
+/// for unusual laws, all others in full.
+class TrajectoryCodec : public rti::AttributeCodec {
+ public:
+  std::string name() const override { return "rink-trajectory-1"; }
+  void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
+  std::optional<std::size_t> size(rti::Bytes coded) const override;
+  bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;
+};
+
+/// The object model at `path` with Rink's codecs. Throws rti::FileError.
+rti::Fom load_rink_fom(const std::string& path);
+
+}  // namespace rink::game

@@ -1,0 +1,43 @@
+// Players who see nothing but their client's mirror, in a rink stepped tick by tick.
+#include "loadgen/live_player.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/net/lockstep_rink.h"
+#include "tests/net/scenes.h"
+
+namespace rink::loadgen {
+namespace {
+
+/// Plays the match with one live player per bat, by 20 ticks and 20 decisions a second; the score after `seconds`.
+game::Score score_of(const std::vector<std::string>& kinds, double seconds) {
+  const game::Scene scene = game::match();
+  game::LockstepRink rink(scene, {.rate_hz = 20.0, .view_fraction = 1.0});
+  rink.start();
+  std::vector<LivePlayers> settings;
+  for (std::uint32_t k = 0; k < 2; ++k) settings.push_back({.kind = kinds[k], .rules = game::rules_of(scene, k), .seed = 1});
+  std::vector<LivePlayer> players;
+  for (std::uint32_t k = 0; k < 2; ++k) players.emplace_back(settings[k], k);
+  std::vector<game::KeysHeld> held(2);
+  while (rink.now < seconds && !rink.server().game().is_over()) {
+    rink.tick();
+    rink.now = rink.server().game().now();
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const game::KeysHeld wanted = players[k].decide(rink.client(k), rink.now);
+      for (const game::Key key : game::all_keys)
+        if (wanted.is_down(key) != held[k].is_down(key)) wanted.is_down(key) ? rink.client(k).press(key) : rink.client(k).release(key);
+      held[k] = wanted;
+    }
+  }
+  return rink.server().game().score();
+}
+
+TEST(LivePlayer, AChaserThatSeesOnlyItsMirrorOutscoresOneWhoDoesNotLook) {
+  const game::Score score = score_of({"chaser-expert", "waypoint"}, 90.0);
+  EXPECT_GT(score.left, score.right);
+  const game::Score mirrored = score_of({"waypoint", "chaser-expert"}, 90.0);
+  EXPECT_GT(mirrored.right, mirrored.left);
+}
+
+}  // namespace
+}  // namespace rink::loadgen

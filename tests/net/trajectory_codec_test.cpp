@@ -1,0 +1,111 @@
+// Trajectories on their way: nothing is lost, whatever they are, and nothing that is no trajectory gets through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "game/replication/attributes.h"
+#include "game/replication/trajectory.h"
+#include "game/replication/trajectory_codec.h"
+
+namespace rink::game {
+namespace {
+
+using physics::Vector2;
+
+/// Codes `sent` at `time`, checks its size, and decodes it at `read_time`.
+Trajectory travelled(const Trajectory& sent, double time, double read_time, std::size_t* size = nullptr) {
+  const TrajectoryCodec codec;
+  std::vector<std::byte> value, coded, read;
+  codec.encode(encode(value, sent), time, coded);
+  EXPECT_EQ(codec.size(coded), coded.size());
+  if (size != nullptr) *size = coded.size();
+  for (std::size_t cut = 0; cut < coded.size(); ++cut) {
+    const std::optional<std::size_t> found = codec.size(rti::Bytes(coded).first(cut));
+    EXPECT_TRUE(!found || *found > cut) << "cut to " << cut << " of " << coded.size();
+  }
+  EXPECT_TRUE(codec.decode(coded, read_time, read));
+  Trajectory received;
+  EXPECT_TRUE(decode(read, received));
+  return received;
+}
+
+double on_grid(double step, double value) { return std::nearbyint(value / step) * step; }
+Vector2 on_grid(double step, double x, double y) { return {on_grid(step, x), on_grid(step, y)}; }
+
+TEST(TrajectoryCodec, RoundedMotionOnAFieldTakesNineBytesAndRestFive) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> x(0.0, 60.0), v(-1.9, 1.9), t(0.0, 5000.0);
+  for (int i = 0; i < 2000; ++i) {
+    const double time = t(random);
+    Trajectory moving{.time = std::floor(time / trajectory_time_step) * trajectory_time_step,
+                      .position = on_grid(trajectory_position_step, x(random), x(random)),
+                      .velocity = on_grid(trajectory_velocity_step, v(random), v(random))};
+    std::size_t size = 0;
+    ASSERT_EQ(travelled(moving, time, time + trajectory_age_max, &size), moving);
+    ASSERT_EQ(size, 9u);
+    const Trajectory resting{.position = moving.position};
+    ASSERT_EQ(travelled(resting, time, time + 1e6, &size), resting) << "rest has no time, so it is never too old";
+    ASSERT_EQ(size, 5u);
+  }
+}
+
+TEST(TrajectoryCodec, LosesNothingOfAnyFiniteTrajectory) {
+  const unsigned seed = 2;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const auto any = [&] {
+    const std::array<double, 12> edges{0.0, -0.0, 1.0, -1.0, 2.0, -2.0, 63.0, -1.0 - 0x1p-11, 256.0, 4096.0, 1e300, 5e-324};
+    if (random() % 3 == 0) return edges[random() % edges.size()];
+    const double magnitude = std::ldexp(1.0, static_cast<int>(random() % 40) - 20) * static_cast<double>(static_cast<std::int64_t>(random())) * 0x1p-63;
+    return random() % 2 == 0 ? magnitude : on_grid(0x1p-11, magnitude);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    Trajectory sent{.time = on_grid(trajectory_time_step, std::abs(any())), .position = {any(), any()}, .velocity = {any(), any()}};
+    if (random() % 2 == 0) sent.acceleration = {any(), any()};
+    if (random() % 4 == 0) sent.acceleration = {single_precision(sent.acceleration.x()), single_precision(sent.acceleration.y())};
+    if (!sent.acceleration.allFinite()) sent.acceleration = {0.0, 0.0};
+    if (random() % 3 == 0) sent.drag.x() = std::abs(any());
+    if (random() % 3 == 0) sent.drag.y() = std::abs(any());
+    ASSERT_EQ(travelled(sent, sent.time + 0.01, sent.time + trajectory_age_max), sent);
+  }
+}
+
+TEST(TrajectoryCodec, AccelerationAndUnusualDragAreAddedOnlyWhereThereAreAny) {
+  std::size_t size = 0;
+  Trajectory t{.time = 2.0, .position = {1.0, 1.0}, .velocity = {0.5, 0.25}};
+  t.velocity.x() = 8.0;
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 13u);
+  t.acceleration = {0.0, 4.0};
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 21u);
+  t.drag.x() = 0.125;
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 29u);
+  t.position.x() = 1e-9;
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 73u);
+}
+
+TEST(TrajectoryCodec, RandomBytesAreRefusedOrGiveATrajectoryThatAnybodyCanFollow) {
+  const unsigned seed = 3;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const TrajectoryCodec codec;
+  std::vector<std::byte> value;
+  for (int i = 0; i < 200000; ++i) {
+    std::vector<std::byte> noise(random() % 80);
+    for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+    const std::optional<std::size_t> size = codec.size(noise);
+    if (!size || *size > noise.size()) continue;
+    value.clear();
+    if (!codec.decode(rti::Bytes(noise).first(*size), 1e4 * static_cast<double>(random() % 1000), value)) continue;
+    Trajectory t;
+    ASSERT_TRUE(decode(value, t));
+    ASSERT_TRUE(t.position.allFinite() && t.velocity.allFinite() && t.acceleration.allFinite() && std::isfinite(t.time));
+  }
+}
+
+}  // namespace
+}  // namespace rink::game
