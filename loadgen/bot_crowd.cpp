@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace rink::loadgen {
 namespace {
 
-constexpr double longest_wait_s = 0.02;  ///< so that interrupts and the end are noticed
+constexpr double longest_wait_s = 0.02;     ///< so that interrupts and the end are noticed
+constexpr double follow_period_s = 1.0 / 30.0;
 
 CrowdTraffic operator-(CrowdTraffic a, const CrowdTraffic& b) {
   a.bytes_sent -= b.bytes_sent;
@@ -30,13 +32,20 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
   measurements_.until_s = settings.duration_s;
   for (std::uint32_t bot = 0; bot < count; ++bot) {
     const game::ClientSettings client{
-        .federation = settings.federation, .name = "bat-" + std::to_string(settings.first + bot), .view_fraction = settings.view_fraction};
+        .federation = settings.federation, .name = "bat-" + std::to_string(settings.first + bot), .view_fraction = settings.view_fraction,
+        .view_area = settings.view_area, .view_margin = settings.view_margin};
     bots_.push_back(std::make_unique<Bot>(fom, model_, client, measurements_));
+    if (!settings_.players.do_decide()) continue;
+    bots_.back()->player.emplace(settings_.players, settings.first + bot);
+    decision_order_.push_back(bot);
   }
+  const auto phase = [this](std::uint32_t bot) { return game::decision_phase(settings_.first + bot); };
+  std::stable_sort(decision_order_.begin(), decision_order_.end(), [&](std::uint32_t a, std::uint32_t b) { return phase(a) < phase(b); });
+  if (settings_.players.do_decide()) return;
   for (const game::InputEvent& event : plan) {
     const bool is_key = event.kind == game::InputKind::key_down || event.kind == game::InputKind::key_up;
     if (!is_key || event.player < settings.first || event.player - settings.first >= count || event.time >= settings.duration_s) continue;
-    plan_.push_back({event.time, event.player - settings.first, event.key, event.kind == game::InputKind::key_down});
+    plan_.push_back({event.time, event.player - settings.first, {event.key, event.kind == game::InputKind::key_down}});
   }
 }
 
@@ -67,12 +76,16 @@ void BotCrowd::after_receiving(Bot& bot) {
   if (bot.client.state() == game::Client::State::playing && newest.tag != 0 && newest.tag != bot.seen_tag) {
     bot.seen_tag = newest.tag;
     const double due = 1e-9 * static_cast<double>(newest.tag);
-    if (!origin_s_) origin_s_ = due - newest.time;
+    if (!origin_s_) start_clock(due - newest.time, newest.time);
     const game::MirroredEntity* bat = bot.client.bat();
     bot.probe.batch_applied(due, now_s_(), bat == nullptr ? 0 : bat->input.count, measurements_.is_counted(newest.time));
   }
-  press_due_keys();  // between two bots' batches too: with many bots a tick's batches take longer than a key may be late
-  bot.client.follow_bat();
+  const std::uint32_t number = bot_of_connection_[bot.connection];
+  if (witness_ && witness_->watches(number)) witness_->listen(number, origin_s_ ? std::optional(now_s_() - *origin_s_) : std::nullopt);
+  sample_when_due();
+  act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer than a key may be late
+  const game::MirroredEntity* own = bot.client.bat();
+  if (own != nullptr && !(own->trajectory && origin_s_)) bot.client.follow_bat();
   const std::optional<rti::Refusal> refusal = bot.client.refusal();
   if (bot.client.state() == game::Client::State::refused)
     lose(bot, bot.client.trouble(), refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
@@ -104,10 +117,40 @@ void BotCrowd::send(Bot& bot) {
 void BotCrowd::run_once() {
   double wait_s = longest_wait_s;
   if (origin_s_ && next_key_ < plan_.size()) wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
+  if (origin_s_ && !decision_order_.empty()) wait_s = std::clamp(due_s(next_decision()) - now_s_(), 0.0, longest_wait_s);
+  if (origin_s_ && witness_) wait_s = std::clamp(due_s(witness_->next_sample_s()) - now_s_(), 0.0, wait_s);
   transport_.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)), *this);
   advance_clocks();
-  press_due_keys();
-  if (origin_s_) measure_span();
+  act_when_due();
+  sample_when_due();
+  if (!origin_s_) return;
+  follow_bats();
+  measure_span();
+}
+
+/// A bat on a trajectory moves without being heard of, so the interest follows it by the clock; one that is told positions is followed when they come.
+void BotCrowd::follow_bats() {
+  const double now = now_s_();
+  if (now < bats_followed_s_ + follow_period_s) return;
+  bats_followed_s_ = now;
+  for (const std::unique_ptr<Bot>& bot : bots_) {
+    const game::MirroredEntity* bat = bot->client.bat();
+    if (bot->is_lost || bat == nullptr || !bat->trajectory) continue;
+    bot->client.follow_bat(now - *origin_s_);
+    send(*bot);
+  }
+}
+
+std::optional<double> BotCrowd::next_due_s() const {
+  if (!origin_s_) return std::nullopt;
+  std::optional<double> next_s;
+  const auto consider = [&](double simulated_s) { next_s = std::min(next_s.value_or(due_s(simulated_s)), due_s(simulated_s)); };
+  if (next_key_ < plan_.size()) consider(plan_[next_key_].time);
+  if (!decision_order_.empty() && next_decision() < settings_.duration_s) consider(next_decision());
+  if (witness_ && std::isfinite(witness_->next_sample_s())) consider(witness_->next_sample_s());
+  if (!span_begin_s_) consider(settings_.warm_up_s);
+  if (!is_measured_) consider(settings_.duration_s);
+  return std::min(next_s.value_or(bats_followed_s_ + follow_period_s), bats_followed_s_ + follow_period_s);
 }
 
 /// Heartbeats, four times a second: often enough for them, and nothing for the rest.
@@ -122,18 +165,57 @@ void BotCrowd::advance_clocks() {
   }
 }
 
-void BotCrowd::press_due_keys() {
+/// Who joins a game that runs already decides from now on, not from its beginning.
+void BotCrowd::start_clock(double origin_s, double simulated_s) {
+  origin_s_ = origin_s;
+  next_turn_ = static_cast<std::uint64_t>(simulated_s / game::decision_period) * decision_order_.size();
+}
+
+void BotCrowd::act_when_due() {
   if (!origin_s_) return;
+  press_due_keys();
+  decide_when_due();
+}
+
+void BotCrowd::press_due_keys() {
   for (; next_key_ < plan_.size() && due_s(plan_[next_key_].time) <= now_s_(); ++next_key_) {
     const DueKey& key = plan_[next_key_];
-    const bool is_counted = measurements_.is_counted(key.time);
-    measurements_.keys_due += is_counted ? 1u : 0u;
-    Bot& bot = *bots_[key.bot];
-    if (bot.is_lost || bot.client.state() != game::Client::State::playing) continue;
-    key.is_down ? bot.client.press(key.key) : bot.client.release(key.key);
-    send(bot);
-    bot.probe.key_sent(due_s(key.time), now_s_(), is_counted);
+    press(*bots_[key.bot], {&key.change, 1}, key.time);
   }
+}
+
+/// All changes of one instant go out in one write.
+void BotCrowd::press(Bot& bot, std::span<const KeyChange> changes, double instant) {
+  const bool is_counted = measurements_.is_counted(instant);
+  measurements_.keys_due += is_counted ? changes.size() : 0u;
+  if (bot.is_lost || bot.client.state() != game::Client::State::playing) return;
+  for (const KeyChange& change : changes) change.is_down ? bot.client.press(change.key) : bot.client.release(change.key);
+  send(bot);
+  for (std::size_t sent = 0; sent < changes.size(); ++sent) bot.probe.key_sent(due_s(instant), now_s_(), is_counted);
+}
+
+/// The simulated instant of the next decision of all [s]. Decisions have a schedule of their own, as planned keys have: a bot that is late is late for it.
+double BotCrowd::next_decision() const {
+  const std::uint64_t count = decision_order_.size();
+  return static_cast<double>(next_turn_ / count) * game::decision_period + game::decision_phase(settings_.first + decision_order_[next_turn_ % count]);
+}
+
+void BotCrowd::decide_when_due() {
+  constexpr int most = 64;  // at once: who cannot keep the schedule must go on receiving, or it would lose its connections besides
+  if (decision_order_.empty()) return;
+  for (int made = 0; made < most && due_s(next_decision()) <= now_s_() && next_decision() < settings_.duration_s; ++made, ++next_turn_)
+    decide(*bots_[decision_order_[next_turn_ % decision_order_.size()]], next_decision());
+}
+
+void BotCrowd::decide(Bot& bot, double instant) {
+  if (bot.is_lost || bot.client.state() != game::Client::State::playing) return;
+  const game::KeysHeld wanted = bot.player->decide(bot.client, instant);
+  const game::KeysHeld held = std::exchange(bot.held, wanted);
+  std::array<KeyChange, game::all_keys.size()> changes;
+  std::size_t count = 0;
+  for (const game::Key key : game::all_keys)
+    if (wanted.is_down(key) != held.is_down(key)) changes[count++] = {key, wanted.is_down(key)};
+  if (count > 0) press(bot, std::span(changes).first(count), instant);
 }
 
 void BotCrowd::measure_span() {
@@ -141,12 +223,37 @@ void BotCrowd::measure_span() {
   if (!span_begin_s_ && now >= due_s(settings_.warm_up_s)) {
     span_begin_s_ = now;
     at_begin_ = total_traffic();
+    received_by_bot_ = received_by_bot();
   }
   if (span_begin_s_ && !is_measured_ && now >= due_s(settings_.duration_s)) {
     is_measured_ = true;
     measured_s_ = now - *span_begin_s_;
     measured_ = total_traffic() - at_begin_;
+    const std::vector<std::uint64_t> now_received = received_by_bot();
+    for (std::size_t i = 0; i < now_received.size(); ++i) received_by_bot_[i] = now_received[i] - received_by_bot_[i];
   }
+}
+
+void BotCrowd::collect_evidence(std::uint64_t seed) {
+  std::vector<game::Client*> clients;
+  for (const std::unique_ptr<Bot>& bot : bots_) clients.push_back(&bot->client);
+  witness_.emplace(game::SamplingSettings{.seed = seed, .clients = bot_count(), .from_s = settings_.warm_up_s, .until_s = settings_.duration_s}, clients);
+}
+
+std::optional<BotsEvidence> BotCrowd::evidence() const {
+  if (!witness_) return std::nullopt;
+  return witness_->evidence();
+}
+
+void BotCrowd::sample_when_due() {
+  if (!witness_ || !origin_s_) return;
+  if (const double simulated_s = now_s_() - *origin_s_; simulated_s >= witness_->next_sample_s()) witness_->sample(simulated_s);
+}
+
+std::vector<std::uint64_t> BotCrowd::received_by_bot() const {
+  std::vector<std::uint64_t> bytes;
+  for (const std::unique_ptr<Bot>& bot : bots_) bytes.push_back(transport_.counters(bot->connection).bytes_received);
+  return bytes;
 }
 
 bool BotCrowd::is_over() const { return is_measured_ || lost_ == bots_.size(); }
@@ -164,6 +271,12 @@ std::uint64_t BotCrowd::unanswered_keys() const {
   std::uint64_t count = 0;
   for (const std::unique_ptr<Bot>& bot : bots_) count += bot->probe.unanswered();
   return count;
+}
+
+std::size_t BotCrowd::client_memory_bytes() const {
+  std::size_t sum = 0;
+  for (const std::unique_ptr<Bot>& bot : bots_) sum += bot->client.memory_bytes();
+  return sum;
 }
 
 CrowdTraffic BotCrowd::total_traffic() const {

@@ -1,19 +1,24 @@
-// rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the run.
+// rink bots: a crowd of headless clients in one process, pressing keys by a plan fixed before the run or by what they see of the game.
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "game/control/key_log.h"
+#include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
+#include "game/players/player.h"
+#include "game/replication/trajectory_codec.h"
 #include "loadgen/bot_crowd.h"
-#include "loadgen/plan.h"
+#include "loadgen/process.h"
+#include "game/players/random_plan.h"
 #include "rti/transport/tcp.h"
 
 namespace {
@@ -24,10 +29,10 @@ using Json = nlohmann::ordered_json;
 volatile std::sig_atomic_t is_interrupted = 0;
 
 struct Options {
-  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report;
+  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd";
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
-  double view_fraction = 0.05, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
+  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
 };
 
 /// More than this fraction of late keys, and the plan was not what was played.
@@ -35,25 +40,77 @@ constexpr double late_fraction_max = 0.01;
 
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
 
+std::string player_names() {
+  std::string names;
+  for (const std::string& name : game::player_kinds()) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// What recording one latency costs on this machine [ns]: the mean over 100,000.
+double histogram_ns_per_record() {
+  constexpr int count = 100'000;
+  loadgen::Histogram histogram;
+  const double begin_s = now_s();
+  for (int i = 0; i < count; ++i) histogram.record(1e-6 * (i % 10'000 + 1));
+  return histogram.count() == count ? 1e9 * (now_s() - begin_s) / count : 0.0;
+}
+
+/// How busy this process keeps the processors it may use, within a span.
+class ProcessorLoad {
+ public:
+  void look(bool is_within) {
+    if (is_within && !begin_) begin_ = now();
+    if (is_within) end_ = now();
+  }
+  std::optional<double> share() const {
+    const double wall_s = begin_ ? end_.wall_s - begin_->wall_s : 0.0;
+    if (!(wall_s > 0.0)) return std::nullopt;
+    return (end_.cpu_s - begin_->cpu_s) / (wall_s * static_cast<double>(std::max<std::size_t>(1, loadgen::allowed_processors().size())));
+  }
+
+ private:
+  struct Reading {
+    double wall_s = 0.0, cpu_s = 0.0;
+  };
+  static Reading now() { return {now_s(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC}; }
+  std::optional<Reading> begin_;
+  Reading end_;
+};
+
 void add_options(CLI::App& app, Options& options) {
-  app.description("Any number of headless clients in one process, each with its own connection, pressing keys by a plan fixed before the run.");
+  app.description("Any number of headless clients in one process, each with its own connection, pressing keys by a plan fixed before the run or as they see fit.");
   app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 --duration 30 --report bots.json\n\n") + game::exit_status_help);
   app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
   app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
   app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
   app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
-  app.add_option("--seed", options.seed, "of the plan")->capture_default_str();
+  app.add_option("--players", options.players, "who plays: random, by the plan; or by what they see of the game, " + player_names())
+      ->check(CLI::IsMember([] { auto kinds = game::player_kinds(); kinds.push_back("random"); return kinds; }()))
+      ->capture_default_str();
+  app.add_option("--scene", options.scene, "the server's scene, of which players know the rules: goals, drag, thrust")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")->capture_default_str();
   app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->capture_default_str();
+  app.add_option("--view-area", options.view_area, "area of a bot's view [m^2] instead; 0: as --view says")->check(game::number_from(0.0, game::view_area_max))->capture_default_str();
+  app.add_option("--view-margin", options.view_margin, "how far the declared region reaches beyond the view [m]; it is declared anew when the bat has moved by half of that")
+      ->check(game::number_from(0.0, game::view_margin_max))
+      ->capture_default_str();
   app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
   app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
   app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
+  app.add_option("--evidence", options.evidence, "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 
 std::vector<game::InputEvent> plan_of(const Options& options) {
+  if (options.players != "random") return {};
   if (!options.plan.empty()) return game::read_key_log(options.plan).events;
-  return loadgen::random_plan(options.seed, options.first + options.count, options.duration_s);
+  return game::random_plan(options.seed, options.first + options.count, options.duration_s);
+}
+
+loadgen::LivePlayers players_of(const Options& options) {
+  if (options.players == "random") return {};
+  return {.kind = options.players, .rules = game::rules_of(game::load_scene(options.scene), 0), .seed = options.seed};
 }
 
 /// "127.0.0.1:4711" or "[::1]:4711" in two; throws std::invalid_argument.
@@ -97,6 +154,8 @@ Json report(const Options& options, const loadgen::BotCrowd& crowd) {
           {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
           {"send_lateness_ms", measured.send_lateness.to_json()},
           {"federates_lost", crowd.lost_count()},
+          {"bytes_received_by_bot", crowd.bytes_received_by_bot()},
+          {"evidence_bytes", crowd.evidence_bytes()},
           {"total_bytes_received", total.bytes_received},
           {"total_bytes_sent", total.bytes_sent},
           {"kernel_bytes_received", total.kernel_bytes_received},
@@ -117,23 +176,36 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
 game::ExitStatus play(const Options& options) {
   const auto [address, port] = address_and_port(options.connect);
   game::require_writable("--report", options.report);
-  const rti::Fom fom = rti::Fom::load(game::fom_file());
+  game::require_writable("--evidence", options.evidence);
+  const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const std::vector<game::InputEvent> plan = plan_of(options);
   rti::ensure_file_limit(options.count + 64u);
   rti::TcpTransport transport;
   const loadgen::BotCrowdSettings settings{.federation = options.federation,
                                            .first = options.first,
                                            .view_fraction = options.view_fraction,
+                                           .view_area = options.view_area,
+                                           .view_margin = options.view_margin,
                                            .warm_up_s = options.warm_up_s,
-                                           .duration_s = options.duration_s};
+                                           .duration_s = options.duration_s,
+                                           .players = players_of(options)};
   loadgen::BotCrowd crowd(fom, transport, settings, options.count, plan, now_s);
+  if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
+  const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
   const double give_up_s = now_s() + options.patience_s;
-  while (!is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) crowd.run_once();
+  ProcessorLoad load;
+  while (!is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) {
+    crowd.run_once();
+    load.look(crowd.is_measuring());
+  }
   for (const double until_s = now_s() + 0.1; !is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
-  const Json written = report(options, crowd);
+  Json written = report(options, crowd);
+  written["cpu_share"] = load.share() ? Json(*load.share()) : Json(nullptr);
+  written["histogram_ns_per_record"] = histogram_ns;
   const game::ExitStatus result = status(crowd);
   crowd.resign();
+  if (const auto evidence = crowd.evidence()) loadgen::write_evidence(options.evidence, *evidence);
   if (!options.report.empty()) {
     std::ofstream file(options.report);
     file << written.dump(2) << '\n';

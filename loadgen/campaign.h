@@ -16,14 +16,17 @@ using KeyLogWriter = std::function<void(const Cell& cell, const std::filesystem:
 
 /// How a campaign went.
 struct Outcome {
-  std::vector<RunRecord> runs;
+  std::vector<RunRecord> runs;  ///< those that were kept from before first
   bool was_interrupted = false;
   std::string output_failure;  ///< why results could not be written, empty if they could; nothing runs after that
 };
 
-/// Runs every cell, appending each record to `results`. The key log of a game is written once, to `results`/keys, and shared by all its cells.
+/// Runs every cell that is not among the `kept` runs of an earlier start, appending each record to `results`. The key log of a game is written once, to `results`/keys, and shared by all its cells.
 /// Throws ExperimentError, before the first cell runs.
 Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
-                     Progress& progress);
+                     Progress& progress, std::vector<RunRecord> kept = {});
+
+/// Those of an earlier start's `runs` that are cells of `experiment`, each once.
+std::vector<RunRecord> runs_to_keep(const Experiment& experiment, const std::vector<RunRecord>& runs);
 
 }  // namespace rink::loadgen

@@ -7,7 +7,9 @@
 #include <sstream>
 #include <system_error>
 
+#include "game/players/player.h"
 #include "loadgen/process.h"
+#include "loadgen/truth/truth.h"
 
 namespace rink::loadgen {
 namespace {
@@ -57,13 +59,22 @@ class CellRun {
     std::error_code ignored;
     std::filesystem::remove(server_report_, ignored);
     std::filesystem::remove(bots_report_, ignored);
-    Process server(settings_.serve, serve_arguments(experiment_, cell_, key_log_, server_report_), settings_.server_processors);
+    const std::string server_evidence = server_report_.string() + "l", bots_evidence = bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
+    std::filesystem::remove(server_evidence, ignored);
+    std::filesystem::remove(bots_evidence, ignored);
+    std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
+    if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_evidence});
+    const bool is_apart = cell_.server_cores == 1;
+    Process server(settings_.serve, serve, is_apart ? settings_.server_processors : std::vector<int>{});
     const std::string address = address_of(server);
-    Process bots(settings_.bots, bots_arguments(experiment_, cell_, key_log_, address, bots_report_), settings_.bots_processors);
+    std::vector<std::string> play = bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
+    if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_evidence});
+    Process bots(settings_.bots, play, is_apart ? settings_.bots_processors : std::vector<int>{});
     await(server, bots);
     record.server_cpu_s = server.ending()->cpu_s;
     record.bots_cpu_s = bots.ending()->cpu_s;
     judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
+    if (settings_.wants_truth) add_truth(record, experiment_, server_evidence, bots_evidence);
   }
 
  private:
@@ -143,7 +154,10 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   add("--address", "127.0.0.1");
   add("--port", "0");
   add("--scheme", cell.scheme);
-  if (experiment.cell_size > 0.0) add("--cell-size", decimal(experiment.cell_size));
+  if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
+  if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
+  if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
+  if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
   add("--policy", cell.policy);
   add("--rate", decimal(experiment.tick_rate_hz));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
@@ -159,8 +173,16 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   std::vector<std::string> arguments{"--connect", address};
   const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
   add("--count", std::to_string(cell.clients));
-  add("--plan", key_log.string());
-  add("--view", decimal(experiment.view_fraction));
+  add("--seed", std::to_string(cell.seed));
+  if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players)) {
+    add("--players", experiment.players);
+    add("--scene", experiment.scene);
+  } else {
+    add("--plan", key_log.string());
+  }
+  add("--view", decimal(cell.parameters.view_fraction));
+  if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
+  if (cell.parameters.view_margin > 0.0) add("--view-margin", decimal(cell.parameters.view_margin));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--report", report.string());

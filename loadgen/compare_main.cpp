@@ -8,33 +8,46 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "game/net/flags.h"
+#include "loadgen/assertion.h"
+#include "loadgen/build_facts.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
+#include "loadgen/growth.h"
 #include "loadgen/open_files.h"
+#include "loadgen/plan_text.h"
 #include "loadgen/process.h"
-#include "loadgen/report.h"
+#include "loadgen/report/saturation_exhibit.h"
+#include "loadgen/report/write_report.h"
+#include "loadgen/resume.h"
+#include "loadgen/saturate_command.h"
+#include "loadgen/server_cores.h"
 #include "loadgen/table.h"
 
 namespace {
 
 using namespace rink::loadgen;
 
-enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, interrupted = 130 };
+enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7, hung_up = 129, interrupted = 130 };
 
 constexpr const char* footer = R"(
-The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds), report.html (reads offline),
-provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
+The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
+(ratios to the baseline, paired by seed), report.html (reads offline), provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
 
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
-             5 results could not be written; 130 interrupted (what was measured is kept).
+             5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
+             printed (the folder is complete); 129 the terminal went away; 130 interrupted (what was measured is kept).
 
-Example: rink compare full --out full-report)";
+Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
 constexpr std::size_t files_besides_clients = 64;
 
-std::atomic<bool> is_interrupted = false;
+std::atomic<bool> is_interrupted = false, is_hung_up = false;
 
-void on_signal(int) { is_interrupted.store(true); }
+void on_signal(int number) {
+  is_interrupted.store(true);
+  if (number == SIGHUP) is_hung_up.store(true);
+}
 
 void heed_signals() {
   struct sigaction action {};
@@ -44,9 +57,11 @@ void heed_signals() {
 }
 
 struct Options {
-  std::string experiment = "default";
+  std::string experiment;
   std::string out, programs;
-  bool may_replace = false;
+  bool may_replace = false, is_resumed = false, is_dry_run = false;
+  std::vector<std::string> assertions;
+  SaturateOptions saturate;
 };
 
 std::filesystem::path own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
@@ -63,12 +78,21 @@ void expect_program(const std::filesystem::path& program) {
   if (access(program.c_str(), X_OK) != 0) throw ExperimentError(program.string() + ": not there or not executable; build it first (./rink does)");
 }
 
-void expect_enough_files(const Experiment& experiment) {
-  const std::size_t most = *std::max_element(experiment.clients.begin(), experiment.clients.end());
+std::uint32_t allowed_clients() {
   const std::size_t limit = raise_open_file_limit();
-  if (limit >= most + files_besides_clients) return;
-  throw ExperimentError(std::to_string(most) + " clients need " + std::to_string(most + files_besides_clients) + " open files but only " +
-                        std::to_string(limit) + " are allowed: raise the hard limit (ulimit -Hn)");
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(limit, files_besides_clients + 1, 1'000'000) - files_besides_clients);
+}
+
+std::size_t files_needed(const Experiment& experiment) {
+  return experiment.transport == TransportKind::virtual_time ? files_besides_clients
+                                                             : *std::max_element(experiment.clients.begin(), experiment.clients.end()) + files_besides_clients;
+}
+
+void expect_enough_files(const Experiment& experiment) {
+  const std::size_t needed = files_needed(experiment), limit = raise_open_file_limit();
+  if (limit >= needed) return;
+  throw ExperimentError(std::to_string(needed - files_besides_clients) + " clients need " + std::to_string(needed) + " open files but only " + std::to_string(limit) +
+                        " are allowed: raise the hard limit (ulimit -Hn)");
 }
 
 /// All but the folder for the reports. Throws ExperimentError if a program is missing.
@@ -85,47 +109,107 @@ RunnerSettings runner_settings(const Options& options) {
 }
 
 /// Writes what the runs give together; returns why that failed, or an empty text.
-std::string write_results(const ResultsDirectory& results, const Experiment& experiment, const std::vector<RunRecord>& runs, const Provenance& provenance) {
+std::string write_results(const ResultsDirectory& results, const Experiment& experiment, const std::vector<RunRecord>& runs, const Provenance& provenance,
+                          std::span<const ReportSection> more_sections) {
   try {
-    results.write("summary.csv", to_csv(summarise(runs)));
+    const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
+    const auto rows = summarise(runs, baseline);
+    const std::string comment = comment_lines(provenance);
+    results.write("summary.csv", comment + to_csv(rows));
+    results.write("comparisons.csv", comment + comparisons_csv(rows, baseline));
+    const auto growths = growths_of(runs);
+    const auto ratios = cores_ratios_of(runs);
+    if (!growths.empty()) results.write("growth.csv", comment + to_csv(growths));
+    if (!ratios.empty()) results.write("server_cores.csv", comment + to_csv(ratios));
     results.write("provenance.json", to_json(provenance).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-    results.write("report.html", report_of(experiment, runs, provenance));
+    write_report(results, experiment, runs, provenance, more_sections);
   } catch (const OutputError& error) {
     return error.what();
   }
   return {};
 }
 
-ExitStatus status_of(const Outcome& outcome) {
-  if (outcome.was_interrupted) return interrupted;
+ExitStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
+  if (outcome.was_interrupted) return is_hung_up ? hung_up : interrupted;
   if (!outcome.output_failure.empty()) return output_failed;
   const auto valid = std::count_if(outcome.runs.begin(), outcome.runs.end(), [](const RunRecord& run) { return run.valid; });
   if (valid == 0) return nothing_measured;
+  if (!do_assertions_hold) return assertion_failed;
+  if (!std::cout) return reader_gone;
   return static_cast<std::size_t>(valid) < outcome.runs.size() ? some_invalid : success;
 }
 
-ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
-  const Experiment experiment = load_experiment(find_experiment(options.experiment), {});
-  expect_enough_files(experiment);
-  RunnerSettings settings = runner_settings(options);
-  ResultsDirectory results(options.out.empty() ? free_directory(".") : std::filesystem::path(options.out), options.may_replace);
-  settings.directory = results.subdirectory("cells");
-  const Provenance provenance = provenance_of(command_line, wake_up_lateness());
+/// Says how each demand turned out; true if all hold.
+bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment, const Outcome& outcome) {
+  if (outcome.was_interrupted && !assertions.empty()) std::cerr << "rink-compare: interrupted, so no --assert was judged\n";
+  if (outcome.was_interrupted || assertions.empty()) return true;
+  const auto rows = summarise(outcome.runs, {experiment.baseline_scheme, experiment.baseline_policy});
+  bool do_all_hold = true;
+  for (const Assertion& assertion : assertions) {
+    const Assertion::Finding finding = assertion.judge(rows);
+    (finding.holds ? std::cout : std::cerr) << "assertion " << (finding.holds ? "holds: " : "FAILED: ") << assertion.text() << "\n" << finding.words << std::flush;
+    do_all_hold = do_all_hold && finding.holds;
+  }
+  return do_all_hold;
+}
 
-  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size(), experiment.warm_up_s + experiment.duration_s + 1.0);
+/// The folder, and what of it is kept.
+Continuation opened_results(const Options& options, const Experiment& experiment, const JournalHead& head) {
+  if (!options.is_resumed) return {ResultsDirectory(options.out.empty() ? free_directory(".") : std::filesystem::path(options.out), options.may_replace), {}, {}};
+  return continued_in(options.out.empty() ? latest_directory(".") : std::filesystem::path(options.out), experiment, head, options.may_replace);
+}
+
+ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
+  const std::string standard = options.saturate.is_wanted ? "saturate" : "default";
+  const Experiment experiment = load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
+  std::vector<Assertion> assertions;
+  for (const std::string& text : options.assertions) assertions.emplace_back(text, experiment);
+  if (options.is_dry_run) {
+    std::cout << plan_text(experiment, files_needed(experiment), raise_open_file_limit()) << std::flush;
+    return std::cout ? success : reader_gone;
+  }
+  if (!options.saturate.is_wanted) expect_enough_files(experiment);
+  RunnerSettings settings = runner_settings(options);
+  const bool is_virtual = experiment.transport == TransportKind::virtual_time;
+  const JournalHead identity{identity_of(experiment), built_commit(), {}};
+  Continuation continuation = opened_results(options, experiment, identity);
+  std::cerr << continuation.said;
+  ResultsDirectory& results = continuation.results;
+  settings.directory = results.subdirectory("cells");
+  const Provenance provenance = is_virtual ? reproducible_provenance_of(command_line) : provenance_of(command_line, wake_up_lateness());
+  if (continuation.kept.empty()) results.set_head(to_json(JournalHead{identity.experiment, identity.commit, provenance.facts}));
+
+  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size() - continuation.kept.size(), expected_cell_s(experiment));
   const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) { write_game_plan(experiment, cell, file); };
-  Outcome outcome = run_campaign(experiment, settings, results, write_keys, progress);
+  std::vector<Saturation> found;
+  Outcome outcome = options.saturate.is_wanted ? run_saturation(experiment, options.saturate, allowed_clients(), settings, results, write_keys, std::cerr, found)
+                                               : run_campaign(experiment, settings, results, write_keys, progress, continuation.kept);
   if (!outcome.runs.empty()) {
-    const std::string failure = write_results(results, experiment, outcome.runs, provenance);
+    std::vector<ReportSection> more_sections;
+    if (options.saturate.is_wanted) more_sections.push_back(saturation_section(found, options.saturate.level));
+    const std::string failure = write_results(results, experiment, outcome.runs, provenance, more_sections);
     if (outcome.output_failure.empty()) outcome.output_failure = failure;
-    std::cout << table_of(outcome.runs, isatty(STDOUT_FILENO) != 0) << std::flush;
+    const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
+    std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(outcome.runs, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
+    if (!options.saturate.is_wanted) std::cout << growth_table(growths_of(outcome.runs)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {
-    std::cerr << "rink-compare: interrupted; kept " << outcome.runs.size() << " of " << cells_of(experiment).size() << " runs\n";
+    std::cerr << "rink-compare: interrupted; kept " << outcome.runs.size() << (options.saturate.is_wanted ? "" : " of " + std::to_string(cells_of(experiment).size())) << " runs\n";
   }
   if (!outcome.output_failure.empty()) std::cerr << "rink-compare: " << outcome.output_failure << "\n";
   if (!outcome.runs.empty() && outcome.output_failure.empty()) std::cout << "report: " << (results.path() / "report.html").string() << "\n" << std::flush;
-  return status_of(outcome);
+  const bool do_assertions_hold = judge(assertions, experiment, outcome);
+  if (!std::cout) std::cerr << "rink-compare: the table could not be printed; it is in " << (results.path() / "report.html").string() << "\n";
+  return status_of(outcome, do_assertions_hold);
+}
+
+void add_saturate_options(CLI::App& app, SaturateOptions& options) {
+  CLI::Option* wanted = app.add_flag("--saturate", options.is_wanted, "search the largest number of clients that holds a service level instead (docs/scaling.md)");
+  const auto add = [&app, wanted](const char* flag, auto& value, const char* meaning) { return app.add_option(flag, value, meaning)->needs(wanted); };
+  add("--on-time", options.level.on_time_fraction_min, "with --saturate: least fraction of ticks on time")->check(rink::game::number_from(0.0, 1.0))->capture_default_str();
+  add("--age-ms", options.level.age_p99_ms_max, "with --saturate: the 99th percentile of the update age stays below [ms]")->check(rink::game::number_from(0.001, 1e6))->capture_default_str();
+  add("--resolution", options.resolution, "with --saturate: relative width of the bracket at the end")->check(rink::game::number_from(0.001, 10.0))->capture_default_str();
+  add("--most", options.most, "with --saturate: never more clients than this (default: the experiment's largest number)")->check(rink::game::number_from(1, 100'000));
 }
 
 }  // namespace
@@ -133,11 +217,17 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Runs every mode x scheme x policy x client count x seed of an experiment as a server and its bots over loopback, and compares them."};
-  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, five_hundred, full")
-      ->capture_default_str();
+  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, five_hundred, full, saturate");
   app.add_option("--out", options.out, "folder for the results (default: report, or report-2, ... if taken)");
-  app.add_flag("--force", options.may_replace, "replace results that are already there");
+  app.add_flag("--force", options.may_replace, "replace results that are already there; with --resume: go on even if experiment or program have changed");
+  CLI::Option* resume = app.add_flag("--resume", options.is_resumed, "go on where an interrupted or killed run of the same experiment stopped (in --out, or the last report)");
+  app.add_flag("--dry-run", options.is_dry_run, "print the cells, their order and the time they take, and touch nothing")->excludes(resume);
+  app.add_option("--assert", options.assertions, "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be given again (docs/experiments.md)")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--programs", options.programs, "folder of rink-serve and rink-bots (default: that of rink-compare)");
+  add_saturate_options(app, options.saturate);
+  for (const char* flag : {"--resume", "--dry-run", "--assert"}) app.get_option("--saturate")->excludes(app.get_option(flag));
   app.footer(footer);
   try {
     app.parse(argc, argv);

@@ -11,6 +11,10 @@
 #include <set>
 #include <sstream>
 
+#include "game/players/player.h"
+#include "game/replication/update_policy.h"
+#include "rti/federation_execution.h"
+
 namespace rink::loadgen {
 namespace {
 
@@ -56,6 +60,23 @@ class ExperimentReader {
       if (!number || *number < least || *number > most) return std::nullopt;
       return static_cast<Whole>(*number);
     });
+  }
+
+  void numbers(const char* key, std::vector<double>& into, const std::string& allowed, const std::function<bool(double)>& is_allowed) {
+    read_list(key, into, allowed, [&is_allowed](const toml::node& node) -> std::optional<double> {
+      const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+      if (!value || !std::isfinite(*value) || !is_allowed(*value)) return std::nullopt;
+      return value;
+    });
+  }
+
+  /// A text that may be missing; `is_allowed` judges it.
+  void text(const char* key, std::string& into, const std::string& allowed, const std::function<bool(const std::string&)>& is_allowed) {
+    const toml::node* node = take(key);
+    if (!node) return;
+    const auto value = node->value_exact<std::string>();
+    if (!value || !is_allowed(*value)) refuse(key, *node, allowed);
+    into = *value;
   }
 
   void number(const char* key, double& into, const std::string& allowed, const std::function<bool(double)>& is_allowed) {
@@ -137,7 +158,53 @@ std::string scene_beside(const std::string& scene, const std::filesystem::path& 
   return (file.parent_path() / scene).lexically_normal().string();
 }
 
+void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary& vocabulary) {
+  reader.choose("modes", result.modes, vocabulary.modes);
+  reader.choose("schemes", result.schemes, vocabulary.schemes);
+  reader.choose("policies", result.policies, vocabulary.policies);
+  reader.whole_numbers("clients", result.clients, 1, 100'000);
+  reader.whole_numbers("pucks", result.pucks, 0, 1'000'000);
+  reader.whole_numbers("bats", result.bats, 0, 1'000'000);
+  reader.whole_numbers("seeds", result.seeds, 0, 1'000'000'000);
+  reader.whole_numbers("server_cores", result.server_cores, 1, 2);
+  reader.whole_numbers("sweep_ticks", result.sweep_ticks, 0, 1000);
+  reader.numbers("view_fraction", result.view_fractions, "numbers above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; });
+  reader.numbers("view_margin", result.view_margins, "numbers from 0 to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
+  reader.numbers("cell_size", result.cell_sizes, "numbers from 0 (the scheme chooses) to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
+}
+
+void read_setting(ExperimentReader& reader, Experiment& result, const std::filesystem::path& file) {
+  reader.number("tick_rate_hz", result.tick_rate_hz, "a number from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; });
+  reader.number("duration_s", result.duration_s, "a number from 0.1 to 3600", [](double v) { return v >= 0.1 && v <= 3600.0; });
+  reader.number("warm_up_s", result.warm_up_s, "a number from 0 to 600", [](double v) { return v >= 0.0 && v <= 600.0; });
+  reader.number("view_area", result.view_area, "a number from 0 (as view_fraction says) to 1e12, and above 0 only beside a single view_fraction",
+                [&result](double v) { return v == 0.0 || (v > 0.0 && v <= 1e12 && result.view_fractions.size() == 1); });
+  reader.number("delay_ms", result.delay_ms, "a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 10'000.0; });
+  reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"virtual", TransportKind::virtual_time}});
+  reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}});
+  reader.choice<Design>("design", result.design, {{"matrix", Design::matrix}, {"one_at_a_time", Design::one_at_a_time}});
+  reader.choice<Population>("population", result.population, {{"fixed", Population::fixed}, {"per_client", Population::per_client}});
+  reader.choice<KeySource>("keys", result.keys, {{"replay", KeySource::replay}, {"live", KeySource::live}});
+  reader.text("players", result.players, "random, " + joined(game::player_kinds()) + ", or the path of a recorded key log, relative to the experiment's folder",
+              [&file](const std::string& name) { return game::is_player_kind(name) || std::filesystem::is_regular_file(file.parent_path() / name); });
+  if (!game::is_player_kind(result.players)) result.players = (file.parent_path() / result.players).lexically_normal().string();
+}
+
+void read_baseline(ExperimentReader& reader, Experiment& result) {
+  const auto read = [&reader](const char* key, std::string& name, const std::vector<std::string>& compared) {
+    const auto is_compared = [&compared](const std::string& word) { return std::find(compared.begin(), compared.end(), word) != compared.end(); };
+    if (!is_compared(name)) name = compared.front();
+    reader.text(key, name, "one that is compared: " + joined(compared), is_compared);
+  };
+  read("baseline_scheme", result.baseline_scheme, result.schemes);
+  read("baseline_policy", result.baseline_policy, result.policies);
+}
+
 }  // namespace
+
+std::vector<std::string> known_schemes() { return im::filter_names(); }
+
+std::vector<std::string> known_policies() { return game::update_policy_names(); }
 
 Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& vocabulary) {
   std::ifstream stream(file);
@@ -155,34 +222,11 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   result.text = text;
   result.name = reader.required_text("name");
   result.scene = scene_beside(reader.required_text("scene"), file);
-  reader.choose("modes", result.modes, vocabulary.modes);
-  reader.choose("schemes", result.schemes, vocabulary.schemes);
-  reader.choose("policies", result.policies, vocabulary.policies);
-  reader.whole_numbers("clients", result.clients, 1, 100'000);
-  reader.whole_numbers("seeds", result.seeds, 0, 1'000'000'000);
-  reader.number("tick_rate_hz", result.tick_rate_hz, "a number from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; });
-  reader.number("duration_s", result.duration_s, "a number from 0.1 to 3600", [](double v) { return v >= 0.1 && v <= 3600.0; });
-  reader.number("warm_up_s", result.warm_up_s, "a number from 0 to 600", [](double v) { return v >= 0.0 && v <= 600.0; });
-  reader.number("view_fraction", result.view_fraction, "a number above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; });
-  reader.number("cell_size", result.cell_size, "a number from 0 (the scheme chooses) to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
-  reader.choice<Population>("population", result.population, {{"fixed", Population::fixed}, {"per_client", Population::per_client}});
-  reader.choice<KeySource>("keys", result.keys, {{"replay", KeySource::replay}, {"live", KeySource::live}});
+  read_matrix(reader, result, vocabulary);
+  read_setting(reader, result, file);
+  read_baseline(reader, result);
   reader.refuse_the_rest();
   return result;
-}
-
-std::vector<Cell> cells_of(const Experiment& experiment) {
-  std::vector<Cell> cells;
-  for (const std::uint64_t seed : experiment.seeds)
-    for (const std::uint32_t clients : experiment.clients)
-      for (const std::string& mode : experiment.modes)
-        for (const std::string& policy : experiment.policies)
-          for (const std::string& scheme : experiment.schemes) cells.push_back({mode, scheme, policy, clients, seed});
-  return cells;
-}
-
-std::string name_of(const Cell& cell) {
-  return cell.mode + "-" + cell.scheme + "-" + cell.policy + "-" + std::to_string(cell.clients) + "-seed" + std::to_string(cell.seed);
 }
 
 }  // namespace rink::loadgen

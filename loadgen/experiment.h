@@ -23,11 +23,35 @@ enum class Population { fixed, per_client };
 /// `replay`: the server applies the planned keys at their exact times and the bots send them for the record. `live`: only what the bots send counts.
 enum class KeySource { replay, live };
 
+/// `matrix`: every combination. `one_at_a_time`: of clients, pucks and bats at most one differs from the first of its list, so that growth with each can be read
+/// from few runs.
+enum class Design { matrix, one_at_a_time };
+
+/// `tcp`: a server process and a bots process over loopback. `virtual_time`: both in this process, over a modelled network and under a virtual clock.
+enum class TransportKind { tcp, virtual_time };
+
+/// What truth calls relevant to a player; h is half the view's side. `rectangle`: an entity whose box touches the square of half side h around the bat's true
+/// centre. `disc`: one whose centre is within h of it.
+enum class Relevance { rectangle, disc };
+
+/// What a scheme or a client may be told beside its name: one value each in a cell, a list each in an experiment.
+struct Parameters {
+  double view_fraction = 0.05;    ///< area of the view / area of the field, above 0 to 1
+  double view_margin = 0.0;       ///< [m] by which the declared region exceeds the view on each side (game::ClientSettings)
+  std::uint32_t sweep_ticks = 0;  ///< ticks ahead over which update regions are swept (game::RegionSweep)
+  double cell_size = 0.0;         ///< side of a grid cell [m]; 0 lets the scheme choose
+  friend bool operator==(const Parameters&, const Parameters&) = default;
+};
+
+/// The filters that the RTI knows, and the update policies that the server knows.
+std::vector<std::string> known_schemes();
+std::vector<std::string> known_policies();
+
 /// The names that an experiment may use.
 struct Vocabulary {
   std::vector<std::string> modes{"client-server"};
-  std::vector<std::string> schemes{"none", "grid", "region"};
-  std::vector<std::string> policies{"periodic"};
+  std::vector<std::string> schemes = known_schemes();
+  std::vector<std::string> policies = known_policies();
 };
 
 /// An experiment file's content; every key but `name` and `scene` has the default given here.
@@ -42,8 +66,17 @@ struct Experiment {
   double tick_rate_hz = 30.0;    ///< 1 to 1000
   double duration_s = 3.0;       ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;        ///< [s] played but not measured; 0 to 600
-  double view_fraction = 0.05;   ///< area of a client's subscription region / area of the field, above 0 to 1
-  double cell_size = 0.0;        ///< side of a grid cell [m]; 0 lets the scheme choose
+  std::vector<double> view_fractions{0.05}, view_margins{0.0}, cell_sizes{0.0};  ///< see Parameters
+  std::vector<std::uint32_t> sweep_ticks{0};
+  std::vector<std::uint32_t> pucks{0}, bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
+  double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
+  TransportKind transport = TransportKind::tcp;
+  double delay_ms = 10.0;        ///< one way, in virtual time; 0 to 10,000
+  std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
+  Relevance relevance = Relevance::rectangle;
+  std::string baseline_scheme = "none", baseline_policy = "periodic";  ///< what ratios refer to; read from a file that compares neither: the first of its lists
+  std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the bots on the others; 2: both wherever they like
+  Design design = Design::matrix;
   Population population = Population::fixed;
   KeySource keys = KeySource::replay;
   std::string text;  ///< the file as read
@@ -60,14 +93,29 @@ struct Cell {
   std::string mode, scheme, policy;
   std::uint32_t clients = 0;
   std::uint64_t seed = 0;
+  Parameters parameters{};
+  std::uint32_t pucks = 0, bats = 0;  ///< 0: the scene's own
+  std::uint32_t server_cores = 1;
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 /// All cells in the order in which they run: schemes innermost, so that what is compared runs side by side and a slow drift of the machine hits all
-/// schemes alike; seeds outermost, so that an interrupted experiment has whole replications.
+/// schemes alike; seeds outermost, so that an interrupted experiment has whole replications. Cells that differ only in what their scheme does not have run once.
 std::vector<Cell> cells_of(const Experiment& experiment);
 
-/// A cell's name for files and progress, e.g. `client-server-grid-periodic-30-seed1`.
+/// `cell` without the parameters that its scheme does not have: the size of cells is for `grid`, and with `none` neither margin nor sweep changes anything.
+Cell without_idle_parameters(Cell cell);
+
+/// The cell that the ratios of `cell` refer to: the same but for `scheme` and `policy`.
+Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
+
+/// A cell's name for files and progress, e.g. `client-server-grid-periodic-30-seed1` or, with what is not the default, `...-30-pucks500-margin0.5-seed1`. No two
+/// cells of an experiment share a name.
 std::string name_of(const Cell& cell);
+/// What of this name is neither seed nor default in words for a reader, e.g. "500 pucks, margin 0.5 m"; empty if all is default.
+std::string variant_of(const Cell& cell);
+
+/// The name of the game that `cell` plays; cells with the same name play the very same one, as long as keys are replayed.
+std::string game_of(const Cell& cell, Population population);
 
 }  // namespace rink::loadgen

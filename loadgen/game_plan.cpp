@@ -1,40 +1,61 @@
-// Reads the scene to learn how many bats play, and writes their plan as a key log.
+// Draws, plays or copies the keys of a game, and writes them as a key log.
 #include "loadgen/game_plan.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "game/control/key_log.h"
+#include "game/control/playing.h"
 #include "game/model/scene_file.h"
-#include "loadgen/plan.h"
+#include "game/players/random_plan.h"
 #include "loadgen/results.h"
 
 namespace rink::loadgen {
 namespace {
 
-/// The scene as the server of `cell` will make it from its arguments.
-game::Scene scene_of(const Experiment& experiment, const Cell& cell) {
-  game::Scene scene = game::load_scene(experiment.scene);
-  if (experiment.population == Population::per_client) scene = game::scaled_to_bats(std::move(scene), cell.clients);
-  return cell.seed > 0 ? game::with_seed(std::move(scene), cell.seed) : scene;
-}
-
-void expect_bats_for_all(const Experiment& experiment, std::size_t bat_count) {
-  const std::uint32_t most = *std::max_element(experiment.clients.begin(), experiment.clients.end());
+/// A game's key log is written for the first of its cells, so the largest of them counts.
+void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::size_t bat_count) {
+  std::uint32_t most = first.clients;
+  for (const Cell& cell : cells_of(experiment))
+    if (cell.bats == first.bats) most = std::max(most, cell.clients);
   if (experiment.population == Population::per_client || most <= bat_count) return;
   throw ExperimentError("experiment " + experiment.name + ": clients = " + std::to_string(most) + ": scene " + experiment.scene + " has " +
                         std::to_string(bat_count) + " bats; allowed is at most as many clients, or population = \"per_client\"");
 }
 
+/// Random players never look, so their keys need no game; those who look play it here, on its true state. Live players who look will play on what they are told, so
+/// there is nothing to record. What names no kind of player is the path of a recorded log.
+std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
+  const double until_s = experiment.warm_up_s + experiment.duration_s;
+  if (experiment.players == "random") return game::random_plan(cell.seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), until_s);
+  if (!game::is_player_kind(experiment.players)) {
+    const game::KeyLog recorded = game::read_key_log(std::filesystem::path(experiment.players));
+    game::require_fit(recorded, scene, experiment.players);
+    return recorded.events;
+  }
+  if (experiment.keys == KeySource::live) return {};
+  game::Playing playing(scene, {experiment.players}, cell.seed, until_s);
+  playing.advance(until_s);
+  return playing.events();
+}
+
 }  // namespace
+
+game::Scene scene_of(const Experiment& experiment, const Cell& cell) {
+  game::Scene scene = game::load_scene(experiment.scene);
+  if (experiment.population == Population::per_client) scene = game::scaled_to_bats(std::move(scene), cell.clients);
+  if (cell.bats > 0) scene = game::with_count(std::move(scene), physics::BodyKind::bat, cell.bats);
+  if (cell.pucks > 0) scene = game::with_count(std::move(scene), physics::BodyKind::puck, cell.pucks);
+  return cell.seed > 0 ? game::with_seed(std::move(scene), cell.seed) : scene;
+}
 
 void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file) {
   game::KeyLog log;
   try {
     const game::Scene scene = scene_of(experiment, cell);
-    expect_bats_for_all(experiment, scene.bodies.bats.size());
+    expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
     log = game::key_log_for(scene);
-    log.events = random_plan(cell.seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), experiment.warm_up_s + experiment.duration_s);
+    log.events = keys_of(experiment, cell, scene);
   } catch (const game::SceneError& error) {
     throw ExperimentError(error.what());
   }

@@ -1,15 +1,20 @@
-// The key log of a cell's game: a seeded plan for all bats of its scene.
+// The key log of a cell's game: what the experiment's players press, for all bats of its scene.
 #pragma once
 
 #include <filesystem>
 
+#include "game/model/scene.h"
 #include "loadgen/experiment.h"
 
 namespace rink::loadgen {
 
+/// The scene as the server of `cell` makes it from its arguments. Throws game::SceneError.
+game::Scene scene_of(const Experiment& experiment, const Cell& cell);
+
 /// Writes the keys of `cell`'s game, warm-up included, to `file`: those of every bat of the scene if the population is fixed, one bat per client otherwise.
-/// Throws ExperimentError if the scene cannot be read or has fewer bats than the experiment's largest cell has clients, OutputError if `file` cannot be
-/// written.
+/// Random keys are drawn; players who decide play the game here, on its true state; a recorded log is taken over; live players who decide leave an empty log. The same
+/// experiment and cell give the same bytes. Throws ExperimentError if the scene or a recorded log cannot be read or do not fit each other, or if the scene has fewer bats
+/// than the experiment's largest cell has clients; OutputError if `file` cannot be written.
 void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file);
 
 }  // namespace rink::loadgen

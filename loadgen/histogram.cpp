@@ -84,7 +84,7 @@ Percentiles Histogram::percentiles_ms() const {
     if (value) *value *= 1e3;
     return value;
   };
-  Percentiles result{in_ms(0.5), in_ms(0.9), in_ms(0.99), in_ms(0.999), std::nullopt};
+  Percentiles result{.p50 = in_ms(0.5), .p90 = in_ms(0.9), .p95 = in_ms(0.95), .p99 = in_ms(0.99), .p999 = in_ms(0.999), .max = std::nullopt};
   if (count_ > 0) result.max = max_s_ * 1e3;
   return result;
 }
@@ -133,6 +133,7 @@ nlohmann::ordered_json percentiles_json(const Percentiles& percentiles) {
   };
   put("p50", percentiles.p50);
   put("p90", percentiles.p90);
+  put("p95", percentiles.p95);
   put("p99", percentiles.p99);
   put("p999", percentiles.p999);
   put("max", percentiles.max);

@@ -11,7 +11,7 @@ namespace rink::loadgen {
 
 /// The percentiles of a sample [ms]; those that the sample cannot support are absent.
 struct Percentiles {
-  std::optional<double> p50, p90, p99, p999, max;
+  std::optional<double> p50, p90, p95, p99, p999, max;
   friend bool operator==(const Percentiles&, const Percentiles&) = default;
 };
 
@@ -60,7 +60,7 @@ class Histogram {
   double max_s_ = 0.0;
 };
 
-/// `{"p50", "p90", "p99", "p999", "max"}` in this order, null where there is no value.
+/// `{"p50", "p90", "p95", "p99", "p999", "max"}` in this order, null where there is no value.
 nlohmann::ordered_json percentiles_json(const Percentiles& percentiles);
 
 }  // namespace rink::loadgen

@@ -1,16 +1,21 @@
 // Reads what the system says about itself and times its wake-ups.
 #include "loadgen/provenance.h"
 
+#include <gnu/libc-version.h>
 #include <sys/utsname.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
+#include "loadgen/build_facts.h"
 #include "loadgen/process.h"
 
 namespace rink::loadgen {
@@ -42,17 +47,24 @@ std::string now_utc() {
   return text;
 }
 
-std::string build() {
+std::string compiler() {
 #ifdef __clang__
-  const std::string compiler = __VERSION__;
+  const std::string name = __VERSION__;
 #else
-  const std::string compiler = "GCC " __VERSION__;
+  const std::string name = "GCC " __VERSION__;
 #endif
 #ifdef NDEBUG
-  return compiler + ", asserts off";
+  return name + ", asserts off";
 #else
-  return compiler + ", asserts on";
+  return name + ", asserts on";
 #endif
+}
+
+std::string libraries() {
+  std::ostringstream text;
+  text << "nlohmann-json " << NLOHMANN_JSON_VERSION_MAJOR << "." << NLOHMANN_JSON_VERSION_MINOR << "." << NLOHMANN_JSON_VERSION_PATCH << ", Eigen " << EIGEN_WORLD_VERSION << "."
+       << EIGEN_MAJOR_VERSION << "." << EIGEN_MINOR_VERSION << ", glibc " << gnu_get_libc_version();
+  return text.str();
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -72,6 +84,20 @@ std::string calibration_text(const Histogram& wake_ups) {
   return text;
 }
 
+void add_program_and_machine(Provenance& provenance) {
+  const std::vector<std::pair<std::string, std::string>> facts{
+      {"commit", built_commit()},
+      {"version", built_version()},
+      {"compiler", compiler()},
+      {"flags", built_flags()},
+      {"libraries", libraries()},
+      {"processor", value_in("/proc/cpuinfo", "model name")},
+      {"cores", std::to_string(allowed_processors().size()) + " allowed of " + std::to_string(std::thread::hardware_concurrency())},
+      {"memory", value_in("/proc/meminfo", "MemTotal")},
+      {"kernel", kernel()}};
+  provenance.facts.insert(provenance.facts.end(), facts.begin(), facts.end());
+}
+
 }  // namespace
 
 Histogram wake_up_lateness() {
@@ -86,13 +112,32 @@ Histogram wake_up_lateness() {
 }
 
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups) {
-  return {{{"taken", now_utc()},
-           {"command", joined(command_line)},
-           {"processor", value_in("/proc/cpuinfo", "model name") + ", " + std::to_string(allowed_processors().size()) + " allowed"},
-           {"memory", value_in("/proc/meminfo", "MemTotal")},
-           {"kernel", kernel()},
-           {"build", build()},
-           {"timer wake-up", calibration_text(wake_ups)}}};
+  Provenance provenance{{{"taken", now_utc()}, {"command", joined(command_line)}}};
+  add_program_and_machine(provenance);
+  provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
+  return provenance;
+}
+
+Provenance reproducible_provenance_of(const std::vector<std::string>& command_line) {
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < command_line.size(); ++i) {
+    const std::string& word = command_line[i];
+    if (word == "--out") ++i;
+    else if (!word.starts_with("--out=") && word != "--force" && word != "--resume") kept.push_back(i == 0 ? std::filesystem::path(word).filename().string() : word);
+  }
+  Provenance provenance{{{"command", joined(kept)}}};
+  add_program_and_machine(provenance);
+  return provenance;
+}
+
+std::string comment_lines(const Provenance& provenance) {
+  std::string lines;
+  for (const auto& [name, fact] : provenance.facts) {
+    std::string line = name + ": " + fact;
+    std::replace_if(line.begin(), line.end(), [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
+    lines += "# " + line + "\n";
+  }
+  return lines;
 }
 
 nlohmann::ordered_json to_json(const Provenance& provenance) {

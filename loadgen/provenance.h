@@ -18,10 +18,16 @@ struct Provenance {
 /// How late this machine wakes a sleeper: a thousand sleeps of 0.2 ms, taking about 0.3 s. Latencies near its p99 are noise.
 Histogram wake_up_lateness();
 
-/// The machine (processor, kernel), the program (compiler, command line), the time, and the timer's calibration.
+/// The program (commit, compiler, flags, libraries, command line), the machine (processor, cores, kernel), the time, and the timer's calibration.
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups);
+
+/// The same of a run in virtual time: without time, calibration and what names the place of the results, so that a second run writes the same bytes.
+Provenance reproducible_provenance_of(const std::vector<std::string>& command_line);
 
 /// The facts as an object, in their order.
 nlohmann::ordered_json to_json(const Provenance& provenance);
+
+/// The facts as lines that begin with `# `, to stand before a table of comma-separated values.
+std::string comment_lines(const Provenance& provenance);
 
 }  // namespace rink::loadgen

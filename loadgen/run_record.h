@@ -14,6 +14,28 @@ namespace rink::loadgen {
 /// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323); acknowledgements are not counted.
 inline constexpr double segment_header_bytes = 66.0;
 
+/// Root mean square, 99th percentile and maximum of distances [mm].
+struct ErrorFigures {
+  std::optional<double> rms, p99, max;
+};
+
+/// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there was no evidence.
+struct TruthFigures {
+  std::optional<double> filter_precision, filter_recall, delivered_precision, delivered_recall;
+  std::optional<std::uint64_t> interactions, missed_interactions;  ///< of the watched players' bats
+  Percentiles late_entry_ms;
+  ErrorFigures position_error_mm, displayed_error_mm;
+  std::optional<double> churn_per_client_per_s, flapping_fraction, wasted_bytes_fraction, control_bytes_fraction, fairness_jain;
+  std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m around the bat, touched by the entity's box"
+  std::string trouble;    ///< why the figures are absent; empty if they are not, or if no evidence was taken
+};
+
+/// How the load generator itself fared.
+struct GeneratorHealth {
+  std::optional<double> bots_cpu_share;           ///< processor time of the bots / (wall time x processors they may use)
+  std::optional<double> histogram_ns_per_record;  ///< what recording one latency costs
+};
+
 /// The figures of one cell. docs/metrics.md defines each; values that were not measured are absent and null in JSON.
 struct RunRecord {
   Cell cell;
@@ -31,19 +53,25 @@ struct RunRecord {
   std::string why_invalid;  ///< empty if valid
 
   std::string scene, population, keys;
-  double view_fraction = 0.0, cell_size = 0.0, duration_s = 0.0, warm_up_s = 0.0;
+  double duration_s = 0.0, warm_up_s = 0.0;
   std::optional<double> measured_s;
   std::optional<double> segments_per_s, writes_per_s;
   std::optional<std::uint64_t> keys_due, keys_sent;
   std::optional<double> late_sends_fraction;
   std::optional<double> server_cpu_s, bots_cpu_s;  ///< processor time of each process from start to end
+  Percentiles tick_us;     ///< wall time of whole ticks
+  TruthFigures truth;
+  GeneratorHealth health;
+  std::string transport, players;
+  double delay_ms = 0.0, view_area = 0.0;
 };
 
 /// A record of `cell` without figures yet; not valid.
 RunRecord record_for(const Experiment& experiment, const Cell& cell);
 
 /// Fills `record` from the reports of the server and the bots and judges it. It is valid if both reports are complete and say so themselves, both counted
-/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %.
+/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. In virtual time there is neither a
+/// kernel nor a clock to measure costs by: such figures may be null in the reports and stay absent.
 void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report);
 
 /// One line of runs.jsonl, keys in the documented order.

@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace rink::loadgen {
 namespace {
@@ -47,6 +48,35 @@ constexpr std::array all_figures{
     Figure{"late_sends_fraction", [](const RunRecord& run) { return run.late_sends_fraction; }},
     Figure{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},
     Figure{"bots_cpu_s", [](const RunRecord& run) { return run.bots_cpu_s; }},
+    Figure{"filter_precision", [](const RunRecord& run) { return run.truth.filter_precision; }},
+    Figure{"filter_recall", [](const RunRecord& run) { return run.truth.filter_recall; }},
+    Figure{"delivered_precision", [](const RunRecord& run) { return run.truth.delivered_precision; }},
+    Figure{"delivered_recall", [](const RunRecord& run) { return run.truth.delivered_recall; }},
+    Figure{"missed_interactions", [](const RunRecord& run) { return as_number(run.truth.missed_interactions); }},
+    Figure{"late_entry_ms_p50", [](const RunRecord& run) { return run.truth.late_entry_ms.p50; }},
+    Figure{"late_entry_ms_p90", [](const RunRecord& run) { return run.truth.late_entry_ms.p90; }},
+    Figure{"late_entry_ms_p95", [](const RunRecord& run) { return run.truth.late_entry_ms.p95; }},
+    Figure{"late_entry_ms_p99", [](const RunRecord& run) { return run.truth.late_entry_ms.p99; }},
+    Figure{"late_entry_ms_p999", [](const RunRecord& run) { return run.truth.late_entry_ms.p999; }},
+    Figure{"late_entry_ms_max", [](const RunRecord& run) { return run.truth.late_entry_ms.max; }},
+    Figure{"position_error_mm_rms", [](const RunRecord& run) { return run.truth.position_error_mm.rms; }},
+    Figure{"position_error_mm_p99", [](const RunRecord& run) { return run.truth.position_error_mm.p99; }},
+    Figure{"position_error_mm_max", [](const RunRecord& run) { return run.truth.position_error_mm.max; }},
+    Figure{"displayed_error_mm_rms", [](const RunRecord& run) { return run.truth.displayed_error_mm.rms; }},
+    Figure{"displayed_error_mm_p99", [](const RunRecord& run) { return run.truth.displayed_error_mm.p99; }},
+    Figure{"displayed_error_mm_max", [](const RunRecord& run) { return run.truth.displayed_error_mm.max; }},
+    Figure{"churn_per_client_per_s", [](const RunRecord& run) { return run.truth.churn_per_client_per_s; }},
+    Figure{"flapping_fraction", [](const RunRecord& run) { return run.truth.flapping_fraction; }},
+    Figure{"wasted_bytes_fraction", [](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }},
+    Figure{"control_bytes_fraction", [](const RunRecord& run) { return run.truth.control_bytes_fraction; }},
+    Figure{"fairness_jain", [](const RunRecord& run) { return run.truth.fairness_jain; }},
+    Figure{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }},
+    Figure{"histogram_ns_per_record", [](const RunRecord& run) { return run.health.histogram_ns_per_record; }},
+    Figure{"tick_us_p50", [](const RunRecord& run) { return run.tick_us.p50; }},
+    Figure{"tick_us_p90", [](const RunRecord& run) { return run.tick_us.p90; }},
+    Figure{"tick_us_p99", [](const RunRecord& run) { return run.tick_us.p99; }},
+    Figure{"tick_us_p999", [](const RunRecord& run) { return run.tick_us.p999; }},
+    Figure{"tick_us_max", [](const RunRecord& run) { return run.tick_us.max; }},
 };
 
 Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>& valid_runs) {
@@ -59,44 +89,59 @@ Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>
   for (const double value : values) sum += value;
   const double mean = sum / static_cast<double>(values.size());
   for (const double value : values) squares += (value - mean) * (value - mean);
-  Statistic result{mean, std::nullopt, *std::min_element(values.begin(), values.end()), *std::max_element(values.begin(), values.end())};
+  Statistic result{mean, std::nullopt, *std::min_element(values.begin(), values.end()), *std::max_element(values.begin(), values.end()), std::nullopt};
   if (values.size() > 1) result.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
+  result.interval = interval_of_mean(values);
   return result;
 }
 
-bool is_replication(const SummaryRow& row, const RunRecord& run) {
-  return row.mode == run.cell.mode && row.scheme == run.cell.scheme && row.policy == run.cell.policy && row.clients == run.cell.clients;
+Cell without_seed(Cell cell) {
+  cell.seed = 0;
+  return cell;
 }
 
 std::vector<SummaryRow> empty_rows(std::span<const RunRecord> runs) {
   std::vector<SummaryRow> rows;
   for (const RunRecord& run : runs) {
-    if (std::none_of(rows.begin(), rows.end(), [&run](const SummaryRow& row) { return is_replication(row, run); })) {
-      rows.push_back({run.cell.mode, run.cell.scheme, run.cell.policy, run.cell.clients, 0, 0, {}, std::nullopt});
-    }
+    const Cell cell = without_seed(run.cell);
+    if (std::find(rows.begin(), rows.end(), cell) == rows.end()) rows.emplace_back(cell);
   }
-  const auto first_with = [&rows](auto member, const SummaryRow& row) {
-    return std::find_if(rows.begin(), rows.end(), [&](const SummaryRow& other) { return other.*member == row.*member; }) - rows.begin();
+  std::vector<std::string> modes;
+  for (const SummaryRow& row : rows) modes.push_back(row.mode);
+  const auto place = [&modes](const SummaryRow& row) {
+    return std::tuple(std::find(modes.begin(), modes.end(), row.mode) - modes.begin(), row.clients, row.pucks, row.bats, row.server_cores);
   };
-  using Place = std::tuple<std::ptrdiff_t, std::ptrdiff_t, std::uint32_t, std::ptrdiff_t>;
-  std::vector<std::pair<Place, SummaryRow>> placed;
-  for (const SummaryRow& row : rows) {
-    placed.push_back({{first_with(&SummaryRow::mode, row), first_with(&SummaryRow::policy, row), row.clients, first_with(&SummaryRow::scheme, row)}, row});
-  }
-  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = std::move(placed[i].second);
+  std::stable_sort(rows.begin(), rows.end(), [&place](const SummaryRow& a, const SummaryRow& b) { return place(a) < place(b); });
   return rows;
 }
 
-void add_ratios(std::vector<SummaryRow>& rows) {
-  for (SummaryRow& row : rows) {
-    const auto baseline = std::find_if(rows.begin(), rows.end(), [&row](const SummaryRow& other) {
-      return other.scheme == "none" && other.mode == row.mode && other.policy == row.policy && other.clients == row.clients;
-    });
-    if (baseline == rows.end()) continue;
-    const auto own = row.of("down_bytes_per_client_per_s").mean, none = baseline->of("down_bytes_per_client_per_s").mean;
-    if (own && none && *none > 0.0) row.down_bytes_ratio_to_none = *own / *none;
+/// (own, baseline) for each seed of which both have one valid run.
+std::vector<std::pair<double, double>> pairs_of(const Figure& figure, const Cell& own, const Cell& baseline, std::span<const RunRecord> runs) {
+  std::map<std::uint64_t, double> baseline_of_seed;
+  for (const RunRecord& run : runs) {
+    const auto value = run.valid && without_seed(run.cell) == baseline ? figure.of(run) : std::nullopt;
+    if (value) baseline_of_seed.emplace(run.cell.seed, *value);
   }
+  std::vector<std::pair<double, double>> pairs;
+  for (const RunRecord& run : runs) {
+    const auto value = run.valid && without_seed(run.cell) == own ? figure.of(run) : std::nullopt;
+    const auto partner = baseline_of_seed.find(run.cell.seed);
+    if (value && partner != baseline_of_seed.end()) pairs.push_back({*value, partner->second});
+  }
+  return pairs;
+}
+
+void add_ratios(std::vector<SummaryRow>& rows, std::span<const RunRecord> runs, const Baseline& named) {
+  for (SummaryRow& row : rows) {
+    const Cell baseline = baseline_of(row, named.scheme, named.policy);
+    for (const Figure& figure : all_figures) row.ratios.push_back(baseline == row ? std::nullopt : ratio_of(pairs_of(figure, row, baseline, runs)));
+  }
+}
+
+std::size_t index_of(const char* name) {
+  const auto figure = std::find_if(all_figures.begin(), all_figures.end(), [name](const Figure& f) { return std::string_view(f.name) == name; });
+  assert(figure != all_figures.end());
+  return static_cast<std::size_t>(figure - all_figures.begin());
 }
 
 std::string csv_number(std::optional<double> value) {
@@ -113,28 +158,42 @@ std::string csv_text(const std::string& text) {
   return quoted + '"';
 }
 
+constexpr const char* cell_columns = "mode,scheme,policy,clients,pucks,bats,server_cores,view_fraction,view_margin,sweep_ticks,cell_size";
+
+std::string cell_values(const Cell& cell) {
+  const Parameters& own = cell.parameters;
+  return csv_text(cell.mode) + "," + csv_text(cell.scheme) + "," + csv_text(cell.policy) + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," +
+         std::to_string(cell.bats) + "," + std::to_string(cell.server_cores) + "," + csv_number(own.view_fraction) + "," + csv_number(own.view_margin) + "," +
+         std::to_string(own.sweep_ticks) + "," + csv_number(own.cell_size);
+}
+
+std::pair<std::optional<double>, std::optional<double>> ends_of(const std::optional<Interval>& interval) {
+  if (!interval) return {};
+  return {interval->low, interval->high};
+}
+
 }  // namespace
 
 std::span<const Figure> figures() { return all_figures; }
 
-const Statistic& SummaryRow::of(const char* name) const {
-  const auto figure = std::find_if(all_figures.begin(), all_figures.end(), [name](const Figure& f) { return std::string_view(f.name) == name; });
-  assert(figure != all_figures.end());
-  return statistics[static_cast<std::size_t>(figure - all_figures.begin())];
-}
+const Statistic& SummaryRow::of(const char* name) const { return statistics[index_of(name)]; }
 
-std::vector<SummaryRow> summarise(std::span<const RunRecord> runs) {
+const std::optional<Ratio>& SummaryRow::ratio(const char* name) const { return ratios[index_of(name)]; }
+
+std::vector<SummaryRow> summarise(std::span<const RunRecord> runs, const Baseline& baseline) {
   std::vector<SummaryRow> rows = empty_rows(runs);
   for (SummaryRow& row : rows) {
     std::vector<const RunRecord*> valid_runs;
     for (const RunRecord& run : runs) {
-      if (!is_replication(row, run)) continue;
+      if (without_seed(run.cell) != static_cast<const Cell&>(row)) continue;
       ++(run.valid ? row.valid_runs : row.invalid_runs);
-      if (run.valid) valid_runs.push_back(&run);
+      if (!run.valid) continue;
+      valid_runs.push_back(&run);
+      if (row.relevance.empty()) row.relevance = run.truth.relevance;
     }
     for (const Figure& figure : all_figures) row.statistics.push_back(statistic_of(figure, valid_runs));
   }
-  add_ratios(rows);
+  add_ratios(rows, runs, baseline);
   return rows;
 }
 
@@ -142,8 +201,8 @@ Agreement agreement_of(std::span<const RunRecord> runs) {
   std::map<std::string, std::vector<std::string>> hashes_of_game;
   for (const RunRecord& run : runs) {
     if (!run.valid || run.keys != "replay") continue;
-    std::string game = "seed " + std::to_string(run.cell.seed);
-    if (run.population == "per_client") game += " with " + std::to_string(run.cell.clients) + " clients";
+    const Population population = run.population == "per_client" ? Population::per_client : Population::fixed;
+    const std::string game = game_of(run.cell, population);
     hashes_of_game[game].push_back(run.state_hash);
   }
   Agreement result;
@@ -160,18 +219,32 @@ Agreement agreement_of(std::span<const RunRecord> runs) {
 }
 
 std::string to_csv(std::span<const SummaryRow> rows) {
-  std::string csv = "mode,scheme,policy,clients,valid_runs,invalid_runs,down_bytes_ratio_to_none";
+  std::string csv = cell_columns + std::string(",valid_runs,invalid_runs,relevance");
   for (const Figure& figure : all_figures) {
-    for (const char* part : {"_mean", "_sd", "_min", "_max"}) csv += std::string(",") + figure.name + part;
+    for (const char* part : {"_mean", "_sd", "_low", "_high", "_min", "_max"}) csv += std::string(",") + figure.name + part;
   }
   csv += "\n";
   for (const SummaryRow& row : rows) {
-    csv += csv_text(row.mode) + "," + csv_text(row.scheme) + "," + csv_text(row.policy) + "," + std::to_string(row.clients) + "," +
-           std::to_string(row.valid_runs) + "," + std::to_string(row.invalid_runs) + "," + csv_number(row.down_bytes_ratio_to_none);
+    csv += cell_values(row) + "," + std::to_string(row.valid_runs) + "," + std::to_string(row.invalid_runs) + "," + csv_text(row.relevance);
     for (const Statistic& statistic : row.statistics) {
-      for (const auto& value : {statistic.mean, statistic.deviation, statistic.min, statistic.max}) csv += "," + csv_number(value);
+      const auto [low, high] = ends_of(statistic.interval);
+      for (const auto& value : {statistic.mean, statistic.deviation, low, high, statistic.min, statistic.max}) csv += "," + csv_number(value);
     }
     csv += "\n";
+  }
+  return csv;
+}
+
+std::string comparisons_csv(std::span<const SummaryRow> rows, const Baseline& baseline) {
+  std::string csv = cell_columns + std::string(",baseline_scheme,baseline_policy,figure,ratio,ratio_low,ratio_high,pairs,difference\n");
+  for (const SummaryRow& row : rows) {
+    for (std::size_t i = 0; i < all_figures.size(); ++i) {
+      const std::optional<Ratio>& ratio = row.ratios[i];
+      if (!ratio) continue;
+      const auto [low, high] = ends_of(ratio->interval);
+      csv += cell_values(row) + "," + csv_text(baseline.scheme) + "," + csv_text(baseline.policy) + "," + all_figures[i].name + "," + csv_number(ratio->value) + "," +
+             csv_number(low) + "," + csv_number(high) + "," + std::to_string(ratio->pairs) + "," + words_for(ratio->difference()) + "\n";
+    }
   }
   return csv;
 }

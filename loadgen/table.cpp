@@ -9,6 +9,9 @@
 namespace rink::loadgen {
 namespace {
 
+constexpr const char* payload = "down_bytes_per_client_per_s";
+constexpr const char* error = "displayed_error_mm_rms";
+
 template <class... Arguments>
 std::string formatted(const char* format, Arguments... arguments) {
   char text[256];
@@ -29,46 +32,73 @@ std::string percent(const std::optional<double>& fraction) {
   return formatted("%.*f%%", *fraction >= 0.99995 ? 0 : 1, std::floor(*fraction * 1e3) / 10.0);
 }
 
-constexpr const char* heading =
-    "                  down   wire   all    of upd. age, ms key effect,ms    on      us per tick\n"
-    "clients scheme   kB/s per cl.  MB/s  none   p50    p99   p50    p99  time physics filter   send   n\n";
-
-std::string ratio(const SummaryRow& row) {
-  if (!row.down_bytes_ratio_to_none) return "-";
-  return row.scheme == "none" ? "1" : formatted("%.*f", *row.down_bytes_ratio_to_none < 0.0995 ? 3 : 2, *row.down_bytes_ratio_to_none);
+/// Four decimals, never rounded up to 1.
+std::string fraction_text(const std::optional<double>& fraction) {
+  return fraction ? formatted("%.4f", *fraction >= 1.0 ? 1.0 : std::floor(*fraction * 1e4) / 1e4) : "-";
 }
 
-std::string line_of(const SummaryRow& row) {
+/// How many times less than the baseline, with its interval.
+std::string times_less(const std::optional<Ratio>& ratio) {
+  if (!ratio) return "-";
+  const Ratio less = ratio->inverse();
+  if (!less.interval) return shown(less.value) + " (one run)";
+  return shown(less.value) + " [" + shown(less.interval->low) + ", " + shown(less.interval->high) + "]" + (less.difference() == Difference::insignificant ? " ~" : "");
+}
+
+constexpr const char* heading =
+    "                            down     times less    recall  displayed    age, ms      on     us per tick            \n"
+    "clients scheme  policy      kB/s     [interval]    deliv.  error, mm   p50    p99   time  phys. filter   send   n\n";
+
+std::string line_of(const SummaryRow& row, const Baseline& baseline) {
   const auto mean = [&row](const char* name, double scale = 1.0) { return shown(row.of(name).mean, scale); };
   const std::string runs = row.invalid_runs == 0 ? std::to_string(row.valid_runs)
                                                  : std::to_string(row.valid_runs) + "/" + std::to_string(row.valid_runs + row.invalid_runs);
-  return formatted("%7u %-7.7s %6s %6s %5s %5s %5s %6s %5s %6s %5s %7s %6s %6s %3s", row.clients, row.scheme.c_str(),
-                   mean("down_bytes_per_client_per_s", 1e-3).c_str(), mean("wire_bytes_per_client_per_s", 1e-3).c_str(),
-                   mean("wire_bytes_per_client_per_s", 1e-6 * row.clients).c_str(), ratio(row).c_str(), mean("update_age_ms_p50").c_str(),
-                   mean("update_age_ms_p99").c_str(), mean("key_to_effect_ms_p50").c_str(), mean("key_to_effect_ms_p99").c_str(),
-                   percent(row.of("ticks_on_time_fraction").mean).c_str(), mean("physics_us_per_tick").c_str(), mean("filter_us_per_tick").c_str(),
-                   mean("send_us_per_tick").c_str(), runs.c_str());
+  const bool is_baseline = row.scheme == baseline.scheme && row.policy == baseline.policy;
+  return formatted("%7u %-7.7s %-9.9s %6s %18s %7s %9s %6s %6s %6s %6s %6s %6s %3s", row.clients, row.scheme.c_str(), row.policy.c_str(), mean(payload, 1e-3).c_str(),
+                   is_baseline ? "baseline" : times_less(row.ratio(payload)).c_str(), fraction_text(row.of("delivered_recall").mean).c_str(), mean(error).c_str(),
+                   mean("update_age_ms_p50").c_str(), mean("update_age_ms_p99").c_str(), percent(row.of("ticks_on_time_fraction").mean).c_str(),
+                   mean("physics_us_per_tick").c_str(), mean("filter_us_per_tick").c_str(), mean("send_us_per_tick").c_str(), runs.c_str());
 }
 
-bool is_same_group(const SummaryRow& a, const SummaryRow& b) { return a.mode == b.mode && a.policy == b.policy && a.clients == b.clients; }
+bool is_same_game(const SummaryRow& a, const SummaryRow& b) {
+  return a.mode == b.mode && a.clients == b.clients && a.pucks == b.pucks && a.bats == b.bats && a.server_cores == b.server_cores;
+}
 
 bool has_fewest_bytes(const SummaryRow& row, const std::vector<SummaryRow>& rows) {
-  const auto own = row.of("wire_bytes_per_client_per_s").mean;
+  const auto own = row.of(payload).mean;
   if (!own) return false;
   std::size_t rivals = 0;
   for (const SummaryRow& other : rows) {
-    const auto theirs = other.of("wire_bytes_per_client_per_s").mean;
-    if (!is_same_group(row, other) || !theirs || &row == &other) continue;
+    const auto theirs = other.of(payload).mean;
+    if (!is_same_game(row, other) || !theirs || &row == &other) continue;
     ++rivals;
     if (*theirs < *own) return false;
   }
   return rivals > 0;
 }
 
-std::string block_title(const SummaryRow& row, std::span<const RunRecord> runs) {
-  const auto run = std::find_if(runs.begin(), runs.end(), [&row](const RunRecord& r) { return r.cell.mode == row.mode && r.cell.policy == row.policy; });
-  return formatted("%.40s, %.24s at %g Hz, each client sees %g %% of the field", row.mode.c_str(), row.policy.c_str(), run->tick_rate_hz,
-                   run->view_fraction * 100.0);
+std::string block_title(const SummaryRow& row, const RunRecord& run) {
+  const std::string view = run.view_area > 0.0 ? formatted("%g m2", run.view_area) : formatted("%g %% of the field", row.parameters.view_fraction * 100.0);
+  return formatted("%.30s at %g Hz, each client sees %s", row.mode.c_str(), run.tick_rate_hz, view.c_str()) +
+         (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
+}
+
+/// What filter and policy save apart and together, a line for each row that has both.
+std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
+  std::string text;
+  const auto row_of = [&rows](const Cell& cell) { return std::find(rows.begin(), rows.end(), cell); };
+  for (const SummaryRow& row : rows) {
+    if (row.scheme == baseline.scheme || row.policy == baseline.policy || !row.ratio(payload)) continue;
+    const auto filter = row_of(baseline_of(row, row.scheme, baseline.policy)), policy = row_of(baseline_of(row, baseline.scheme, row.policy));
+    const auto none = row_of(baseline_of(row, baseline.scheme, baseline.policy));
+    if (filter == rows.end() || policy == rows.end()) continue;
+    const std::string variant = variant_of(row);
+    text += formatted("%u clients, %.20s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + ": " +
+            times_less(row.ratio(payload)) + " times less payload\n";
+    text += "        filter alone " + times_less(filter->ratio(payload)) + ", policy alone " + times_less(policy->ratio(payload)) + "; displayed error " +
+            shown(row.of(error).mean) + " mm beside " + shown(none->of(error).mean) + " mm\n";
+  }
+  return text.empty() ? text : "gains over " + baseline.scheme + " with " + baseline.policy + ", 95 % intervals over seeds:\n" + text;
 }
 
 std::string agreement_text(std::span<const RunRecord> runs) {
@@ -88,21 +118,32 @@ std::string invalid_text(std::span<const RunRecord> runs) {
   return text;
 }
 
+std::string explanation(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
+  std::string text = "down: payload to each client; times less: than " + baseline.scheme + " with " + baseline.policy + ", 95 % interval over seeds;\n";
+  const auto any = [&rows](Difference difference) {
+    return std::any_of(rows.begin(), rows.end(), [difference](const SummaryRow& row) { return row.ratio(payload) && row.ratio(payload)->difference() == difference; });
+  };
+  if (any(Difference::insignificant)) text += "~: no significant difference, the interval contains 1;\n";
+  if (any(Difference::unknown)) text += "one run: the difference cannot be told from one replication;\n";
+  const auto judged = std::find_if(rows.begin(), rows.end(), [](const SummaryRow& row) { return !row.relevance.empty(); });
+  if (judged != rows.end()) text += "relevant is: " + judged->relevance + ";\n";
+  return text + "n: runs averaged (valid/all); -: not measured, or too few samples to say\n";
+}
+
 }  // namespace
 
-std::string table_of(std::span<const RunRecord> runs, bool is_coloured) {
-  const std::vector<SummaryRow> rows = summarise(runs);
+std::string table_of(std::span<const RunRecord> runs, bool is_coloured, const Baseline& baseline) {
+  const std::vector<SummaryRow> rows = summarise(runs, baseline);
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool is_new_block = i == 0 || rows[i].mode != rows[i - 1].mode || rows[i].policy != rows[i - 1].policy;
-    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows[i], runs) + "\n" + heading;
-    if (!is_new_block && rows[i].clients != rows[i - 1].clients) text += "\n";
+    const bool is_new_block = i == 0 || rows[i].mode != rows[i - 1].mode;
+    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows[i], runs.front()) + heading;
+    if (!is_new_block && !is_same_game(rows[i], rows[i - 1])) text += "\n";
     const bool is_emphasised = is_coloured && has_fewest_bytes(rows[i], rows);
-    text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i]) + (is_emphasised ? "\033[0m" : "") + "\n";
+    text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i], baseline) + (is_emphasised ? "\033[0m" : "") + "\n";
+    if (const std::string variant = variant_of(rows[i]); !variant.empty()) text += "        " + variant + "\n";
   }
-  text += "down: payload; wire: both directions with headers; all: wire bytes of all clients;\n";
-  text += "of none: down bytes relative to no filter; n: runs averaged (valid/all); -: too few samples to say\n";
-  return text + agreement_text(runs) + invalid_text(runs);
+  return text + explanation(rows, baseline) + gains_text(rows, baseline) + agreement_text(runs) + invalid_text(runs);
 }
 
 }  // namespace rink::loadgen

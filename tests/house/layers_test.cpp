@@ -22,11 +22,14 @@ const std::vector<Layer> layers{
     {"rti", {"rti", "im"}},
     {"game/physics", {"game/physics"}},
     {"game/model", {"game/model", "game/physics"}},
-    {"game/control", {"game/control", "game/model", "game/physics"}},
-    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti"}},
-    {"game/net", {"game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},
+    {"game/players", {"game/players", "game/model", "game/physics"}},
+    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im"}},
+    {"game/net", {"game/net", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view", {"game/view", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
-    {"loadgen", {"loadgen", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"loadgen/truth", {"loadgen/truth", "loadgen", "game/net", "game/control", "game/model", "game/physics"}},
+    {"loadgen/report", {"loadgen/report", "loadgen"}},
+    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "game/players", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h"};

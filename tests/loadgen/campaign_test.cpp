@@ -70,7 +70,7 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
   server("echo \"$@\" >\"" + (folder_ / "serve.arguments").string() + "\"\n" + find_report + "echo listening on 127.0.0.1:4711\n");
   bots("echo \"$@\" >\"" + (folder_ / "bots.arguments").string() + "\"\n");
   experiment_.population = Population::per_client;
-  experiment_.cell_size = 2.5;
+  cell_.parameters.cell_size = 2.5;
   experiment_.duration_s = experiment_.warm_up_s = 0.25;
   run();
   std::ostringstream serve_text, bots_text;
@@ -78,7 +78,7 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
   bots_text << std::ifstream(folder_ / "bots.arguments").rdbuf();
   EXPECT_THAT(serve_text.str(), HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
                                           "--rate 30 --duration 0.5 --warm-up 0.25"));
-  EXPECT_THAT(bots_text.str(), AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --plan "), HasSubstr("--view 0.05")));
+  EXPECT_THAT(bots_text.str(), AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --seed 1 --plan "), HasSubstr("--view 0.05")));
 }
 
 TEST_F(CampaignTest, AServerThatEndsBeforeItListensIsQuoted) {
@@ -193,6 +193,18 @@ TEST(Results, ExistingResultsAreNotReplacedUnasked) {
   EXPECT_EQ(free_directory(folder), folder / "report-3");
   std::ofstream(folder / "file") << "x";
   EXPECT_THROW(ResultsDirectory(folder / "file", false), OutputError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Results, TwoCannotWriteTheSameRunsAtOnce) {
+  std::string pattern = testing::TempDir() + "rink-results-XXXXXX";
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  ResultsDirectory first(folder, false);
+  first.append(RunRecord{});
+  const auto size = std::filesystem::file_size(folder / "runs.jsonl");
+  EXPECT_THROW(ResultsDirectory::resumed(folder, size), OutputError);
+  first.append(RunRecord{});
+  EXPECT_EQ(std::filesystem::file_size(folder / "runs.jsonl"), 2 * size);
   std::filesystem::remove_all(folder);
 }
 

@@ -15,6 +15,7 @@ namespace rink::loadgen {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class CompareCommandTest : public testing::Test {
  protected:
@@ -45,6 +46,11 @@ class CompareCommandTest : public testing::Test {
   std::vector<std::string> arguments(const std::string& experiment) const {
     return {(folder_ / experiment).string(), "--out", (folder_ / "out").string(), "--programs", folder_.string()};
   }
+  std::vector<std::string> with(const std::string& experiment, const std::vector<std::string>& more) const {
+    std::vector<std::string> all = arguments(experiment);
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
   /// Runs the command to its end; `errors_` is what it said.
   int exit_status_of(const std::vector<std::string>& arguments) {
     Process compare(std::string(RINK_BINARY_DIR) + "/bin/rink-compare", arguments, {});
@@ -60,8 +66,12 @@ class CompareCommandTest : public testing::Test {
 TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   EXPECT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
   const std::string runs = content("out/runs.jsonl");
-  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 2);
-  EXPECT_THAT(content("out/summary.csv"), HasSubstr("client-server,grid,periodic,2,1,0"));
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 2);
+  EXPECT_THAT(runs, StartsWith("{\"provenance\":{\"taken\""));
+  EXPECT_THAT(content("out/summary.csv"), HasSubstr("client-server,grid,periodic,2,0,0,1,0.05,0,0,0,1,0,"));
+  EXPECT_THAT(content("out/comparisons.csv"), HasSubstr("cannot be told from one replication"));
+  for (const char* file : {"out/runs.jsonl", "out/summary.csv", "out/comparisons.csv", "out/report.html", "out/provenance.json"})
+    for (const char* fact : {"commit", "compiler", "flags", "processor", "cores", "kernel", "command", "timer wake-up"}) EXPECT_THAT(content(file), HasSubstr(fact)) << file;
   EXPECT_THAT(content("out/report.html"), HasSubstr("</html>"));
   EXPECT_THAT(content("out/provenance.json"), HasSubstr("kernel"));
   EXPECT_THAT(content("out/keys/seed1.keys"), HasSubstr("rink-keys 1"));
@@ -99,6 +109,62 @@ TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
   compare.stop(std::chrono::seconds(20));
   EXPECT_EQ(compare.ending()->exit_status, 130) << compare.ending()->text();
   EXPECT_THAT(content("out/report.html"), HasSubstr("1 of 2 cells run, 1 valid"));
+
+  std::filesystem::remove(folder_ / "hang-grid");
+  const std::string first = content("out/runs.jsonl");
+  std::ofstream(folder_ / "out/runs.jsonl", std::ios::app) << "{\"mode\": \"client-ser";  // as kill -9 would leave it
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--resume"})), 0) << errors_;
+  EXPECT_THAT(errors_, HasSubstr("going on, 1 of 2 cells are done"));
+  EXPECT_THAT(errors_, HasSubstr("torn"));
+  const std::string runs = content("out/runs.jsonl");
+  EXPECT_THAT(runs, StartsWith(first));
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 2);
+  EXPECT_THAT(content("out/report.html"), HasSubstr("2 of 2 cells run, 2 valid"));
+}
+
+TEST_F(CompareCommandTest, RunsOfAnotherExperimentAreGoneOnWithOnlyIfForced) {
+  EXPECT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
+  write("small.toml", content("small.toml") + "seeds = [1, 2]\n");
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--resume"})), 5);
+  EXPECT_THAT(errors_, HasSubstr("of another experiment"));
+  EXPECT_THAT(errors_, HasSubstr("--resume --force"));
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--resume", "--force"})), 0) << errors_;
+  EXPECT_THAT(content("out/report.html"), HasSubstr("4 of 4 cells run, 4 valid"));
+  write("out/runs.jsonl", "no journal\n");
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--resume"})), 5);
+  EXPECT_THAT(errors_, HasSubstr("runs.jsonl:1: not JSON"));
+}
+
+TEST_F(CompareCommandTest, ADryRunTouchesNothing) {
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--dry-run"})), 0) << errors_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(CompareCommandTest, AFailedAssertionHasAStatusOfItsOwnAndSaysTheValues) {
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--assert", "down_bytes_per_client_per_s > 1", "--assert", "update_age_ms_p99[scheme=grid] < 5"})), 6);
+  EXPECT_THAT(errors_, HasSubstr("FAILED: update_age_ms_p99[scheme=grid] < 5"));
+  EXPECT_THAT(errors_, HasSubstr("update_age_ms_p99 of client-server-grid-periodic-2 = "));
+  EXPECT_THAT(content("out/report.html"), HasSubstr("</html>"));
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--force", "--assert", "filter_recall == 1"})), 6);
+  EXPECT_THAT(errors_, HasSubstr("undefined"));
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--force", "--assert", "update_age_ms_p99 < 50"})), 0) << errors_;
+}
+
+TEST_F(CompareCommandTest, AnAssertionThatNamesWhatIsNotThereEndsBeforeAnythingRuns) {
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--assert", "update_age[scheme=grid] < 5"})), 2);
+  EXPECT_THAT(errors_, HasSubstr("no figure is called update_age"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(CompareCommandTest, AFolderThatMayNotBeWrittenIsNamed) {
+  const auto status = [this](const std::string& out) { return exit_status_of({(folder_ / "small.toml").string(), "--out", out, "--programs", folder_.string()}); };
+  EXPECT_EQ(status("/proc/nowhere"), 5);
+  EXPECT_THAT(errors_, HasSubstr("/proc/nowhere"));
+  std::filesystem::create_directory(folder_ / "full");
+  std::filesystem::create_symlink("/dev/full", folder_ / "full/runs.jsonl");
+  EXPECT_EQ(status((folder_ / "full").string()), 5);
+  EXPECT_THAT(errors_, HasSubstr("No space left"));
+  EXPECT_THAT(content("full/report.html"), HasSubstr("1 of 2 cells run, 1 valid")) << "what was measured is kept";
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+
+#include "loadgen/plan_text.h"
 
 namespace rink::loadgen {
 namespace {
@@ -32,7 +35,7 @@ TEST(ExperimentFile, WhatIsNotSaidHasTheDocumentedDefault) {
   EXPECT_EQ(read.schemes, defaults.schemes);
   EXPECT_EQ(read.clients, defaults.clients);
   EXPECT_EQ(read.tick_rate_hz, 30.0);
-  EXPECT_EQ(read.view_fraction, 0.05);
+  EXPECT_EQ(read.view_fractions, std::vector<double>{0.05});
   EXPECT_EQ(read.population, Population::fixed);
   EXPECT_EQ(read.keys, KeySource::replay);
   EXPECT_EQ(read.text, minimal);
@@ -46,7 +49,7 @@ TEST(ExperimentFile, ASceneFileIsLookedForBesideTheExperiment) {
 
 TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "schemes = ['none', 'gird']"),
-              AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("gird"), HasSubstr("none, grid, region")));
+              AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("gird"), HasSubstr("none"), HasSubstr("grid"), HasSubstr("region")));
   EXPECT_THAT(complaint_about(minimal + "clients = [10,\n0]"), AllOf(StartsWith("dir/x.toml:4: clients = 0"), HasSubstr("from 1 to 100000")));
   EXPECT_THAT(complaint_about(minimal + "clients = []"), StartsWith("dir/x.toml:3: clients"));
   EXPECT_THAT(complaint_about(minimal + "clients = [5, 5]"), AllOf(StartsWith("dir/x.toml:3: clients = 5"), HasSubstr("once")));
@@ -61,6 +64,15 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "population = 'growing'"), HasSubstr("fixed, per_client"));
   EXPECT_THAT(complaint_about(minimal + "keys = true"), HasSubstr("replay, live"));
   EXPECT_THAT(complaint_about(minimal + "viewfraction = 0.1"), AllOf(StartsWith("dir/x.toml:3: unknown key viewfraction"), HasSubstr("view_fraction")));
+  EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 2]"), HasSubstr("view_fraction = 2"));
+  EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 0.2]\nview_area = 4"), AllOf(StartsWith("dir/x.toml:4: view_area = 4"), HasSubstr("single view_fraction")));
+  EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
+  EXPECT_THAT(complaint_about(minimal + "transport = 'udp'"), HasSubstr("tcp, virtual"));
+  EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
+  EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc"));
+  EXPECT_THAT(complaint_about(minimal + "players = 'nobody'"), AllOf(HasSubstr("random, chaser"), HasSubstr("recorded key log")));
+  EXPECT_THAT(complaint_about(minimal + "schemes = ['grid']\nbaseline_scheme = 'none'"), AllOf(HasSubstr(":4: baseline_scheme = 'none'"), HasSubstr("is compared: grid")));
+  EXPECT_THAT(complaint_about(minimal + "server_cores = 3"), HasSubstr("from 1 to 2"));
   EXPECT_THAT(complaint_about("scene = 'crowd'"), AllOf(StartsWith("dir/x.toml: name"), HasSubstr("required")));
   EXPECT_THAT(complaint_about("name = 3\nscene = 'crowd'"), StartsWith("dir/x.toml:1: name = 3"));
   EXPECT_THAT(complaint_about(minimal + "clients = [1,,2]"), AllOf(StartsWith("dir/x.toml:3:"), HasSubstr("not TOML")));
@@ -86,15 +98,57 @@ TEST(ExperimentFile, SchemesAreInterleavedAndSeedsAreOutermost) {
                                  "client-server-none-periodic-2-seed8", "client-server-grid-periodic-2-seed8"));
 }
 
+TEST(ExperimentFile, CellsThatDifferOnlyInWhatTheirSchemeLacksRunOnce) {
+  const auto experiment = parse_experiment(minimal + "schemes=['none','grid','region']\nview_margin=[0,0.5]\nsweep_ticks=[0,2]\ncell_size=[0,1,3]\npucks=[0,70]", "x.toml", {});
+  const std::vector<Cell> cells = cells_of(experiment);
+  const auto count = [&cells](const std::string& scheme) { return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.scheme == scheme; }); };
+  EXPECT_EQ(count("none"), 2);
+  EXPECT_EQ(count("grid"), 2 * 2 * 2 * 3);
+  EXPECT_EQ(count("region"), 2 * 2 * 2);
+  std::set<std::string> names;
+  for (const Cell& cell : cells) {
+    names.insert(name_of(cell));
+    EXPECT_EQ(baseline_of(cell, "none", "periodic").scheme, "none");
+    EXPECT_NE(std::find(cells.begin(), cells.end(), baseline_of(cell, "none", "periodic")), cells.end()) << name_of(cell);
+  }
+  EXPECT_EQ(names.size(), cells.size());
+  const Cell& last = *std::find_if(cells.rbegin(), cells.rend(), [](const Cell& cell) { return cell.scheme == "region"; });
+  EXPECT_EQ(name_of(last), "client-server-region-periodic-10-pucks70-margin0.5-sweep2-seed1");
+  EXPECT_EQ(variant_of(last), "70 pucks, margin 0.5 m, swept 2 ticks");
+}
+
+TEST(ExperimentFile, RatiosReferToNoFilterOrElseToTheFirstScheme) {
+  EXPECT_EQ(parse_experiment(minimal, "x.toml", {}).baseline_scheme, "none");
+  EXPECT_EQ(parse_experiment(minimal + "schemes = ['grid', 'region']", "x.toml", {}).baseline_scheme, "grid");
+  EXPECT_EQ(parse_experiment(minimal + "schemes = ['grid', 'region']\nbaseline_scheme = 'region'", "x.toml", {}).baseline_scheme, "region");
+}
+
 TEST(ExperimentFile, TheInstalledExperimentsAreSoundAndTheDefaultIsShort) {
   const std::filesystem::path folder = std::filesystem::path(RINK_SOURCE_DIR) / "scenes/experiments";
-  const Experiment standard = load_experiment(folder / "default.toml", {});
-  const double each_s = standard.duration_s + standard.warm_up_s + 1.0;  // start, join and end take about a second
-  EXPECT_LE(each_s * static_cast<double>(cells_of(standard).size()), 75.0);
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) EXPECT_FALSE(cells_of(load_experiment(entry.path(), {})).empty()) << entry.path();
+  const auto expected_s = [](const Experiment& experiment) { return expected_cell_s(experiment) * static_cast<double>(cells_of(experiment).size()); };
+  const Experiment standard = load_experiment(folder / "default.toml", {}), full = load_experiment(folder / "full.toml", {}), gains = load_experiment(folder / "gains.toml", {});
+  EXPECT_LE(expected_s(standard), 160.0);
   EXPECT_GE(standard.clients.size(), 3u);
-  const Experiment full = load_experiment(folder / "full.toml", {});
-  EXPECT_EQ(full.population, Population::per_client);
+  EXPECT_GE(standard.seeds.size(), 3u) << "so that intervals mean something";
+  EXPECT_EQ(standard.policies.size(), 2u);
+  EXPECT_LE(expected_s(full), 1800.0);
   EXPECT_GE(*std::max_element(full.clients.begin(), full.clients.end()), 500u);
+  EXPECT_LE(expected_s(gains), 180.0);
+  EXPECT_EQ(cells_of(gains).size(), 4u * 5u);
+}
+
+TEST(Experiment, OneNumberAtATimeGivesACrossThroughTheFirstValues) {
+  Experiment experiment;
+  experiment.schemes = {"none", "region"};
+  experiment.clients = {50, 25, 100};
+  experiment.pucks = {1'000, 500};
+  experiment.bats = {100, 200, 400, 800};
+  EXPECT_EQ(cells_of(experiment).size(), 2u * 3u * 2u * 4u);
+  experiment.design = Design::one_at_a_time;
+  const std::vector<Cell> cells = cells_of(experiment);
+  EXPECT_EQ(cells.size(), 2u * (1u + 2u + 1u + 3u));
+  for (const Cell& cell : cells) EXPECT_LE((cell.clients != 50) + (cell.pucks != 1'000) + (cell.bats != 100), 1);
 }
 
 }  // namespace

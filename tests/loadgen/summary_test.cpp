@@ -45,8 +45,7 @@ TEST(Summary, MeansAndDeviationsAreThoseOfTheValidRuns) {
   const Statistic& grid = rows[1].of("down_bytes_per_client_per_s");
   EXPECT_DOUBLE_EQ(grid.mean.value(), 33.0);
   EXPECT_DOUBLE_EQ(grid.deviation.value(), 3.0);
-  EXPECT_DOUBLE_EQ(rows[0].down_bytes_ratio_to_none.value(), 1.0);
-  EXPECT_DOUBLE_EQ(rows[1].down_bytes_ratio_to_none.value(), 33.0 / 102.0);
+  EXPECT_NEAR(grid.interval->high, 33.0 + 4.302652730 * std::sqrt(3.0), 1e-6);
 }
 
 TEST(Summary, AFigureThatOneValidRunLacksIsAbsent) {
@@ -62,7 +61,27 @@ TEST(Summary, WithoutAValidRunThereIsARowButNoFigure) {
   const auto rows = summarise(std::vector<RunRecord>{run("none", 10, 1, 5.0, false)});
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].of("down_bytes_per_client_per_s").mean);
-  EXPECT_FALSE(rows[0].down_bytes_ratio_to_none);
+  EXPECT_FALSE(rows[0].ratio("down_bytes_per_client_per_s"));
+}
+
+TEST(Summary, RatiosAreToTheBaselinePairedBySeed) {
+  const auto rows = summarise(runs);
+  EXPECT_FALSE(rows[0].ratio("down_bytes_per_client_per_s")) << "the baseline itself";
+  const Ratio ratio = rows[1].ratio("down_bytes_per_client_per_s").value();
+  EXPECT_EQ(ratio.pairs, 2u) << "the third seed's baseline does not count";
+  EXPECT_NEAR(ratio.value, std::sqrt(30.0 / 100.0 * 36.0 / 104.0), 1e-12);
+  EXPECT_TRUE(ratio.interval);
+  EXPECT_FALSE(summarise(runs, {"region", "periodic"})[1].ratio("down_bytes_per_client_per_s")) << "no such baseline was run";
+  EXPECT_THAT(comparisons_csv(rows, {}), HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0,0,0,none,periodic,update_age_ms_p50,1,1,1,2,no significant difference\n"));
+}
+
+TEST(Summary, ParametersPucksAndCoresMakeRowsOfTheirOwn) {
+  std::vector<RunRecord> some{run("grid", 10, 1, 30.0), run("grid", 10, 1, 40.0), run("grid", 10, 1, 50.0), run("grid", 10, 2, 60.0)};
+  some[1].cell.parameters.cell_size = 3.0;
+  some[2].cell.pucks = 7;
+  ASSERT_EQ(summarise(some).size(), 3u);
+  EXPECT_DOUBLE_EQ(summarise(some)[0].of("down_bytes_per_client_per_s").mean.value(), 45.0);
+  EXPECT_EQ(summarise(some)[2].pucks, 7u);
 }
 
 TEST(Summary, RowsAreGroupedByClientsAscendingWithTheSchemesInOrder) {
@@ -80,7 +99,7 @@ TEST(Summary, GamesAgreeUnlessTwoValidRunsOfOneSeedDiffer) {
   EXPECT_TRUE(agreement_of(some).differing.empty());
   some[1].state_hash = "odd";
   ASSERT_EQ(agreement_of(some).differing.size(), 1u);
-  EXPECT_THAT(agreement_of(some).differing[0], HasSubstr("seed 1: hash-of-seed-1 odd"));
+  EXPECT_THAT(agreement_of(some).differing[0], HasSubstr("seed1: hash-of-seed-1 odd"));
   for (RunRecord& record : some) record.keys = "live";
   EXPECT_EQ(agreement_of(some).games, 0u);
 }
@@ -93,21 +112,21 @@ TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
   std::getline(csv, grid);
   EXPECT_FALSE(std::getline(csv, rest));
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(6 + 4 * figures().size()));
+  EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(13 + 6 * figures().size()));
   EXPECT_EQ(commas(none), commas(header));
-  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,2,1,1,"));
+  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,0,0,1,0.05,0,0,0,2,1,"));
   EXPECT_THAT(none, HasSubstr(",102,"));
   EXPECT_THAT(none, HasSubstr(",,,,"));  // update_age_ms_p999
   EXPECT_THAT(none, Not(HasSubstr("1e+09")));
 }
 
-TEST(Table, FitsAHundredColumnsAndSaysWhatDidNotCount) {
+TEST(Table, FitsHundredAndTwentyColumnsAndSaysWhatDidNotCount) {
   std::vector<RunRecord> some = runs;
   some.push_back(run("region", 100'000, 1, 123'456.0));
   std::istringstream table(table_of(some, false));
   for (std::string line; std::getline(table, line);) {
     if (line.find("invalid") == std::string::npos) {
-      EXPECT_LE(line.size(), 100u) << line;
+      EXPECT_LE(line.size(), 120u) << line;
     }
   }
   EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: yes"));
@@ -115,6 +134,30 @@ TEST(Table, FitsAHundredColumnsAndSaysWhatDidNotCount) {
   EXPECT_THAT(table_of(some, false), Not(HasSubstr("\033")));
   some[0].state_hash = "odd";
   EXPECT_THAT(table_of(some, false), HasSubstr("same state hash: NO"));
+}
+
+TEST(Table, SaysAloudWhatReplicationsCannotTellApart) {
+  const auto text = [](std::vector<RunRecord> some) { return table_of(some, false); };
+  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50)}), HasSubstr("cannot be told from one replication"));
+  EXPECT_THAT(text({run("none", 10, 1, 100), run("grid", 10, 1, 50), run("none", 10, 2, 100), run("grid", 10, 2, 150)}), HasSubstr("no significant difference"));
+  const std::string clear = text({run("none", 10, 1, 100), run("grid", 10, 1, 50), run("none", 10, 2, 100), run("grid", 10, 2, 51)});
+  EXPECT_THAT(clear, HasSubstr("1.98 [1.75, 2.25]"));  // sqrt(2 * 100/51); log ratios .6931 and .6733, half width 12.706 * .0099
+  EXPECT_THAT(clear, Not(HasSubstr("no significant difference")));
+}
+
+TEST(Table, GainsOfFilterAndPolicyStandApartAndTogetherBesideTheError) {
+  std::vector<RunRecord> some;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const auto add = [&](const char* scheme, const char* policy, double down, double error) {
+      some.push_back(run(scheme, 10, seed, down * static_cast<double>(seed)));
+      some.back().cell.policy = policy;
+      some.back().truth.displayed_error_mm.rms = error;
+    };
+    add("none", "periodic", 1200, 30), add("region", "periodic", 100, 31), add("none", "on-event", 400, 2), add("region", "on-event", 40, 3);
+  }
+  const std::string text = table_of(some, false);
+  EXPECT_THAT(text, HasSubstr("10 clients, region with on-event: 30.0 [30.0, 30.0] times less payload"));
+  EXPECT_THAT(text, HasSubstr("filter alone 12.0 [12.0, 12.0], policy alone 3.00 [3.00, 3.00]; displayed error 3.00 mm beside 30.0 mm"));
 }
 
 }  // namespace

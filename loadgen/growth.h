@@ -1,0 +1,32 @@
+// How a tick's cost and the bytes grow with clients, pucks and bats, read off the runs of an experiment.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loadgen/power_fit.h"
+#include "loadgen/run_record.h"
+
+namespace rink::loadgen {
+
+/// One line of growth.csv: how `figure` of one scheme and policy grows with `factor` while all else stays.
+struct Growth {
+  std::string mode, scheme, policy;
+  std::string factor;     ///< clients, pucks or bats
+  std::string held;       ///< the others' values, for a reader, e.g. "100 bats, 1000 pucks"
+  std::string figure;     ///< the column of runs.jsonl, e.g. filter_us_per_tick; total_us_per_tick is the sum of the three parts
+  PowerFit fit;
+};
+
+/// All growths that the valid runs show: wherever one of clients, pucks and bats takes three or more values while the other two, mode, scheme, policy,
+/// parameters and cores are the same. Replications over seeds are kept as points of their own.
+std::vector<Growth> growths_of(std::span<const RunRecord> runs);
+
+/// As CSV (RFC 4180), a line each; what is absent is empty.
+std::string to_csv(std::span<const Growth> growths);
+
+/// As text for a terminal, at most 100 columns; empty if there is none.
+std::string growth_table(std::span<const Growth> growths);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,110 @@
+// The matrix that an experiment spans, and how its points are called.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "loadgen/experiment.h"
+
+namespace rink::loadgen {
+namespace {
+
+std::string shortest(double number) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+std::vector<Parameters> parameters_of(const Experiment& experiment) {
+  std::vector<Parameters> all;
+  for (const double fraction : experiment.view_fractions)
+    for (const double margin : experiment.view_margins)
+      for (const std::uint32_t sweep : experiment.sweep_ticks)
+        for (const double cell_size : experiment.cell_sizes) all.push_back({fraction, margin, sweep, cell_size});
+  return all;
+}
+
+bool is_in_design(const Experiment& experiment, const Cell& cell) {
+  const int moved = (cell.clients != experiment.clients.front()) + (cell.pucks != experiment.pucks.front()) + (cell.bats != experiment.bats.front());
+  return experiment.design == Design::matrix || moved <= 1;
+}
+
+/// What of a cell differs from the default, as (short name, value, words around the value).
+struct Difference {
+  const char* name;
+  std::string value;
+  const char *before, *after;
+};
+
+std::vector<Difference> differences_of(const Cell& cell) {
+  const Parameters& own = cell.parameters;
+  const Parameters standard;
+  std::vector<Difference> all;
+  if (cell.pucks > 0) all.push_back({"pucks", std::to_string(cell.pucks), "", " pucks"});
+  if (cell.bats > 0) all.push_back({"bats", std::to_string(cell.bats), "", " bats"});
+  if (own.view_fraction != standard.view_fraction) all.push_back({"view", shortest(own.view_fraction), "view ", ""});
+  if (own.view_margin != standard.view_margin) all.push_back({"margin", shortest(own.view_margin), "margin ", " m"});
+  if (own.sweep_ticks != standard.sweep_ticks) all.push_back({"sweep", std::to_string(own.sweep_ticks), "swept ", " ticks"});
+  if (own.cell_size != standard.cell_size) all.push_back({"cell", shortest(own.cell_size), "cells ", " m"});
+  if (cell.server_cores != 1) all.push_back({"cores", std::to_string(cell.server_cores), "", " cores"});
+  return all;
+}
+
+}  // namespace
+
+Cell without_idle_parameters(Cell cell) {
+  if (cell.scheme != "grid") cell.parameters.cell_size = 0.0;
+  if (cell.scheme == "none") cell.parameters.view_margin = 0.0, cell.parameters.sweep_ticks = 0;
+  return cell;
+}
+
+Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy) {
+  cell.scheme = scheme;
+  cell.policy = policy;
+  return without_idle_parameters(std::move(cell));
+}
+
+std::vector<Cell> cells_of(const Experiment& experiment) {
+  std::vector<Cell> games;  // all that is outside of what is compared
+  for (const std::uint64_t seed : experiment.seeds)
+    for (const std::uint32_t clients : experiment.clients)
+      for (const std::uint32_t pucks : experiment.pucks)
+        for (const std::uint32_t bats : experiment.bats)
+          for (const std::string& mode : experiment.modes)
+            for (const std::uint32_t cores : experiment.server_cores)
+              games.push_back({mode, {}, {}, clients, seed, {}, pucks, bats, cores});
+  std::vector<Cell> cells;
+  for (Cell cell : games) {
+    if (!is_in_design(experiment, cell)) continue;
+    const auto first_of_game = static_cast<std::ptrdiff_t>(cells.size());
+    for (const std::string& policy : experiment.policies)
+      for (const Parameters& parameters : parameters_of(experiment))
+        for (const std::string& scheme : experiment.schemes) {
+          cell.policy = policy, cell.parameters = parameters, cell.scheme = scheme;
+          const Cell candidate = without_idle_parameters(cell);
+          if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end()) cells.push_back(candidate);
+        }
+  }
+  return cells;
+}
+
+std::string name_of(const Cell& cell) {
+  std::string name = cell.mode + "-" + cell.scheme + "-" + cell.policy + "-" + std::to_string(cell.clients);
+  for (const Difference& difference : differences_of(cell)) name += std::string("-") + difference.name + difference.value;
+  return name + "-seed" + std::to_string(cell.seed);
+}
+
+std::string variant_of(const Cell& cell) {
+  std::string words;
+  for (const Difference& difference : differences_of(cell)) words += (words.empty() ? "" : ", ") + (difference.before + difference.value + difference.after);
+  return words;
+}
+
+std::string game_of(const Cell& cell, Population population) {
+  std::string game = "seed" + std::to_string(cell.seed);
+  if (population == Population::per_client) game += "-" + std::to_string(cell.clients);
+  if (cell.pucks > 0) game += "-pucks" + std::to_string(cell.pucks);
+  if (cell.bats > 0) game += "-bats" + std::to_string(cell.bats);
+  return game;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,41 @@
+// A line per cell.
+#include "loadgen/plan_text.h"
+
+#include <cstdio>
+#include <set>
+
+namespace rink::loadgen {
+namespace {
+
+std::string clock_text(double duration_s) {
+  char text[32];
+  const auto whole = static_cast<long>(duration_s + 0.5);
+  std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  return text;
+}
+
+}  // namespace
+
+double expected_cell_s(const Experiment& experiment) { return experiment.warm_up_s + experiment.duration_s + 1.0; }
+
+std::string plan_text(const Experiment& experiment, std::size_t open_files_needed, std::size_t open_files_max) {
+  const std::vector<Cell> cells = cells_of(experiment);
+  const double cell_s = expected_cell_s(experiment);
+  const bool is_virtual = experiment.transport == TransportKind::virtual_time;
+  std::string text = "experiment " + experiment.name + ", scene " + experiment.scene + ": " + std::to_string(cells.size()) + " cells";
+  const std::string times = ", each about " + clock_text(cell_s) + ", about " + clock_text(cell_s * static_cast<double>(cells.size())) + " in all\n";
+  text += is_virtual ? " in virtual time, each as fast as this machine computes\n" : times;
+  std::set<std::string> games;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string start = is_virtual ? "" : "  at " + clock_text(cell_s * static_cast<double>(i));
+    text += "  " + std::to_string(i + 1) + start + "  " + name_of(cells[i]) + "\n";
+    games.insert(game_of(cells[i], experiment.population));
+  }
+  text += "ratios refer to " + experiment.baseline_scheme + " with " + experiment.baseline_policy + "\n";
+  if (experiment.seeds.size() < 2) text += "one seed: without replications no difference can be told from chance\n";
+  text += "files: " + std::to_string(games.size()) + " key logs, up to 4 per cell in cells/, runs.jsonl, summary.csv, comparisons.csv, report.html, provenance.json\n";
+  text += "open files: " + std::to_string(open_files_needed) + " needed, " + std::to_string(open_files_max) + " allowed\n";
+  return text;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,67 @@
+// The parts of the report: what each section needs, and what it gives.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loadgen/experiment.h"
+#include "loadgen/histogram.h"
+#include "loadgen/report/cell_lines.h"
+#include "loadgen/report/plot_table.h"
+
+namespace rink::loadgen {
+
+/// The latencies of all valid replications of one cell together.
+struct CellLatencies {
+  Cell cell;  ///< its seed means nothing
+  Histogram update_age, key_to_effect, late_entry;
+};
+
+/// What the sections are made from.
+struct Findings {
+  const Experiment& experiment;
+  std::span<const RunRecord> runs;
+  std::span<const CellLatencies> latencies;
+  std::vector<CellLine> lines;
+  std::string relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
+};
+
+/// A section's markup, and the tables behind its plots.
+struct Exhibit {
+  std::string html;
+  std::vector<PlotTable> tables{};
+
+  /// Adds a figure, its caption and its data; `table` may be empty if another figure shows the same.
+  void add(const std::string& svg, const std::string& caption, PlotTable table);
+  /// Says in a sentence why something is not there.
+  void add_absence(const std::string& sentence);
+  void add(Exhibit other);
+};
+
+/// The columns that every table by cell begins with, and their values.
+std::vector<std::string> cell_columns();
+std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
+/// Appends mean, low and high of `mean` to `row`, empty where absent.
+void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
+
+/// Bytes against clients.
+Exhibit traffic_exhibit(const Findings& findings);
+/// Bytes against error, and what filter and policy gain.
+Exhibit gains_exhibit(const Findings& findings);
+/// Precision against recall.
+Exhibit relevance_exhibit(const Findings& findings);
+/// Whole curves of latency percentiles.
+Exhibit latency_exhibit(const Findings& findings);
+/// What a tick costs, by part.
+Exhibit cost_exhibit(const Findings& findings);
+/// How replications scatter.
+Exhibit replication_exhibit(const Findings& findings);
+/// How a tick's cost grows with clients, pucks and bats, and what a second processor changes.
+Exhibit growth_exhibit(const Findings& findings);
+/// How the load generator itself fared.
+Exhibit generator_exhibit(const Findings& findings);
+/// Every run with its figures, and those that do not count with their reasons.
+Exhibit runs_exhibit(const Findings& findings);
+
+}  // namespace rink::loadgen

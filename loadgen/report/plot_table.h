@@ -1,0 +1,27 @@
+// The figures behind a plot, as a file and as a table on the page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loadgen/provenance.h"
+
+namespace rink::loadgen {
+
+/// `name` becomes plots/NAME.csv; a column's unit is part of its name.
+struct PlotTable {
+  std::string name, about;  ///< `about` says in a sentence what a row is
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows{};  ///< each as long as `columns`
+
+  bool is_empty() const { return rows.empty(); }
+};
+
+/// Comma-separated (RFC 4180) below comment lines that start with `# ` and hold `about` and the provenance; readers that know no comments skip them by that sign.
+std::string to_csv(const PlotTable& table, const Provenance& provenance);
+
+/// A closed `<details>` that holds the rows, or says where they are if there are more than a reader would want to scroll through.
+std::string to_details(const PlotTable& table);
+
+}  // namespace rink::loadgen

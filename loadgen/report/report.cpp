@@ -1,0 +1,129 @@
+// Puts the sections on one page.
+#include "loadgen/report/report.h"
+
+#include <algorithm>
+#include <set>
+
+#include "loadgen/report/gains.h"
+#include "loadgen/report/style.h"
+#include "loadgen/report/text.h"
+#include "loadgen/summary.h"
+
+namespace rink::loadgen {
+namespace {
+
+std::string relevance_of(std::span<const RunRecord> runs) {
+  std::set<std::string> texts;
+  for (const RunRecord& run : runs) {
+    if (!run.truth.relevance.empty()) texts.insert(run.truth.relevance);
+  }
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
+std::string agreement_text(std::span<const RunRecord> runs) {
+  const Agreement agreement = agreement_of(runs);
+  if (agreement.games == 0) return "<p class=\"faint\">No two runs were given the same keys, so no state hashes can be compared.</p>\n";
+  if (agreement.differing.empty()) return "<p>All cells of one seed ended in the same state hash: <b>yes</b>. The filters changed the traffic, not the game.</p>\n";
+  std::string html = "<p class=\"warn\">All cells of one seed ended in the same state hash: NO.</p>\n<ul>\n";
+  for (const std::string& difference : agreement.differing) html += "<li>" + escaped(difference) + "</li>\n";
+  return html + "</ul>\n";
+}
+
+std::string view_text(const Experiment& experiment) {
+  if (experiment.view_area > 0.0) return "each client sees " + short_number(experiment.view_area) + " m\xC2\xB2";
+  std::string text;
+  for (const double fraction : experiment.view_fractions) text += (text.empty() ? "" : ", ") + short_number(100.0 * fraction) + " %";
+  return "each client sees " + text + " of the field";
+}
+
+std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
+  const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
+  std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
+                     short_number(experiment.tick_rate_hz) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
+                     view_text(experiment) + "; ";
+  if (experiment.transport == TransportKind::tcp) text += "processes over TCP; ";
+  else text += "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other; ";
+  return text + std::to_string(runs.size()) + " of " + std::to_string(cells_of(experiment).size()) + " cells run, " + std::to_string(valid) + " valid.";
+}
+
+const std::string* fact(const Provenance& provenance, const std::string& name) {
+  for (const auto& [key, text] : provenance.facts) {
+    if (key == name) return &text;
+  }
+  return nullptr;
+}
+
+Exhibit reproduction(const Experiment& experiment, const Provenance& provenance) {
+  Exhibit exhibit{"<p>Save the experiment below as EXPERIMENT.toml and run it; seeds fix the scene and every key, so that games, bytes and errors repeat, while times depend on the machine:</p>\n"
+                  "<pre>./rink compare EXPERIMENT.toml</pre>\n"};
+  if (const std::string* command = fact(provenance, "command")) exhibit.html += "<p class=\"faint\">This report was made by</p>\n<pre>" + escaped(*command) + "</pre>\n";
+  exhibit.html += "<p class=\"faint\">The experiment:</p>\n<pre>" + escaped(experiment.text) + "</pre>\n";
+  return exhibit;
+}
+
+Exhibit provenance_list(const Provenance& provenance) {
+  Exhibit exhibit{"<dl>\n"};
+  for (const auto& [name, text] : provenance.facts) exhibit.html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd>\n";
+  exhibit.html += "</dl>\n";
+  return exhibit;
+}
+
+constexpr const char* definitions =
+    "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; a "
+    "segment carries up to 1,448 bytes; acknowledgements are not counted). Displayed error: distance between where a client shows an entity at an instant and where it truly is then; at matched "
+    "time: the same at the instant that the client's newest state describes. Latencies count from the instant an action was due. A percentile is shown only if ten or more samples lie beyond it, and "
+    "averaged only if every valid replication has it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by seed.</p>\n";
+
+/// Sections in the order of the page, with the list of contents that leads to them.
+class Page {
+ public:
+  void add(const std::string& id, const std::string& title, Exhibit exhibit) {
+    contents_ += (contents_.empty() ? "" : " \xC2\xB7 ") + std::string("<a href=\"#") + id + "\">" + escaped(title) + "</a>\n";
+    body_ += "<section id=\"" + id + "\">\n<h2>" + escaped(title) + "</h2>\n" + exhibit.html + "</section>\n";
+    std::move(exhibit.tables.begin(), exhibit.tables.end(), std::back_inserter(tables_));
+  }
+  Report finished(const std::string& title, const std::string& introduction) {
+    const std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>" + escaped(title) +
+                             "</title>\n<style>" + report_style + "</style>\n</head>\n<body>\n<h1>" + escaped(title) + "</h1>\n" + introduction + "<nav>" + contents_ + "</nav>\n" + body_ +
+                             "</body>\n</html>\n";
+    return {html, std::move(tables_)};
+  }
+
+ private:
+  std::string contents_, body_;
+  std::vector<PlotTable> tables_;
+};
+
+std::string introduction_of(const Findings& findings) {
+  const std::string headline = headline_of(findings);
+  std::string html = headline.empty() ? "" : "<p class=\"headline\">" + escaped(headline) + "</p>\n";
+  html += "<p class=\"faint\">" + escaped(setting_text(findings.experiment, findings.runs)) + "</p>\n";
+  if (!findings.relevance.empty()) html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) + ".</p>\n";
+  return html + agreement_text(findings.runs);
+}
+
+}  // namespace
+
+Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies,
+                 std::span<const ReportSection> more_sections) {
+  const Findings findings{experiment, runs, latencies, lines_of(runs), relevance_of(runs)};
+  Page page;
+  page.add("traffic", "Traffic", traffic_exhibit(findings));
+  page.add("gains", "Bytes against error", gains_exhibit(findings));
+  page.add("relevance", "Precision and recall", relevance_exhibit(findings));
+  page.add("latency", "Latency", latency_exhibit(findings));
+  page.add("cost", "Cost of a tick", cost_exhibit(findings));
+  page.add("replications", "Replications", replication_exhibit(findings));
+  page.add("growth", "Growth", growth_exhibit(findings));
+  for (const ReportSection& section : more_sections) page.add(section.id, section.title, section.exhibit);
+  page.add("generator", "The load generator", generator_exhibit(findings));
+  page.add("runs", "All runs", runs_exhibit(findings));
+  page.add("definitions", "Definitions", {definitions});
+  page.add("reproduce", "How to reproduce", reproduction(experiment, provenance));
+  page.add("provenance", "Provenance", provenance_list(provenance));
+  return page.finished(experiment.name + ": interest management compared", introduction_of(findings));
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,32 @@
+// The comparison as one HTML page that needs neither network nor script, and the tables behind its plots.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loadgen/report/exhibit.h"
+
+namespace rink::loadgen {
+
+/// A section that another part of the load generator has to say, e.g. where the server saturates.
+struct ReportSection {
+  std::string id, title;  ///< `id` of letters and dashes
+  Exhibit exhibit;
+};
+
+struct Report {
+  std::string html;
+  std::vector<PlotTable> tables;  ///< for plots/NAME.csv
+};
+
+/// The page: plots, tables, the runs that did not count with their reasons, definitions, how to reproduce, and provenance. Light and dark follow the
+/// reader's setting; print is light. All text from outside is escaped. The same input gives the same bytes. What was not measured is left out with a sentence.
+Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies = {},
+                 std::span<const ReportSection> more_sections = {});
+
+/// The whole histograms of the valid `runs` from their reports in `cells`; whatever is missing or unreadable there is left out.
+std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells, std::span<const RunRecord> runs);
+
+}  // namespace rink::loadgen

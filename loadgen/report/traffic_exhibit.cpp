@@ -1,0 +1,64 @@
+// Bytes per client against clients, payload and on the wire.
+#include <algorithm>
+
+#include "loadgen/report/exhibit.h"
+#include "loadgen/report/line_plot.h"
+#include "loadgen/report/text.h"
+
+namespace rink::loadgen {
+namespace {
+
+std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
+std::optional<double> on_the_wire(const RunRecord& run) { return run.wire_bytes_per_client_per_s; }
+
+/// Who sends most and least at the largest client count, in a sentence.
+std::string extremes(const Findings& findings, FigureOf figure) {
+  const auto counts = client_counts(findings.lines);
+  if (counts.empty()) return "";
+  std::vector<std::pair<double, std::string>> found;
+  for (const CellLine& line : findings.lines) {
+    for (const CellGroup& group : line.groups) {
+      const auto mean = group.cell.clients == counts.back() ? group.mean(figure) : std::nullopt;
+      if (mean && mean->mean > 0.0) found.emplace_back(mean->mean, line.name);
+    }
+  }
+  if (found.size() < 2) return "";
+  const auto [least, most] = std::minmax_element(found.begin(), found.end());
+  return " At " + std::to_string(counts.back()) + " clients: least " + short_number(least->first) + "B/s (" + least->second + "), most " + short_number(most->first) + "B/s (" +
+         most->second + "), " + plain_number(most->first / least->first) + " times as much.";
+}
+
+void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf figure, const std::string& name, const std::string& title, const std::string& reading) {
+  LinePlot plot{title, "clients", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
+  PlotTable table{name, title + ": bytes per second and client, mean over replications and its 95 % interval", cell_columns()};
+  table.columns.insert(table.columns.end(), {"bytes_per_client_per_s", "low_95", "high_95"});
+  for (const CellLine& line : findings.lines) {
+    PlotLine drawn{line.name, line.style, {}};
+    for (const CellGroup& group : line.groups) {
+      const auto mean = group.mean(figure);
+      if (!mean) continue;
+      drawn.points.push_back({static_cast<double>(group.cell.clients), mean->mean, mean->interval, {}, line.name + ", " + std::to_string(group.cell.clients) + " clients: " + short_number(mean->mean) + "B/s"});
+      auto row = cell_values(line, group);
+      append_interval(row, mean);
+      table.rows.push_back(std::move(row));
+    }
+    if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
+  }
+  if (!has_points(plot)) return exhibit.add_absence(title + ": no valid run has this figure, so there is no plot.");
+  plot.alternative = reading + extremes(findings, figure);
+  exhibit.add(to_svg(plot), plot.alternative, std::move(table));
+}
+
+}  // namespace
+
+Exhibit traffic_exhibit(const Findings& findings) {
+  Exhibit exhibit{"<div class=\"plots\">\n"};
+  add_plot(exhibit, findings, payload, "payload-against-clients", "Payload to each client",
+           "Lower is better; a flat line says that a client's traffic does not depend on how many others there are. Bars: 95 % intervals of the mean.");
+  add_plot(exhibit, findings, on_the_wire, "wire-against-clients", "On the wire for each client",
+           "Both directions with headers: what a client's link carries. Lines come closer where headers outweigh payload.");
+  exhibit.html += "</div>\n";
+  return exhibit;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,138 @@
+// What searches for saturation found, as table, CSV and JSON.
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "loadgen/saturate_command.h"
+
+namespace rink::loadgen {
+namespace {
+
+const char* name_of(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::bracketed: return "bracketed";
+    case SearchEnd::most_holds: return "most_holds";
+    case SearchEnd::one_fails: return "one_fails";
+    case SearchEnd::not_valid: return "not_valid";
+    case SearchEnd::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+const char* name_of(Verdict verdict) { return verdict == Verdict::holds ? "holds" : (verdict == Verdict::fails ? "fails" : "invalid"); }
+
+std::optional<double> age_p99_of(const RunRecord& run) { return run.update_age_ms.p99; }
+
+struct Column {
+  const char* name;
+  std::optional<double> (*of)(const RunRecord&);
+};
+constexpr std::array columns{
+    Column{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
+    Column{"update_age_ms_p99", age_p99_of},
+    Column{"physics_us_per_tick", [](const RunRecord& run) { return run.physics_us_per_tick; }},
+    Column{"filter_us_per_tick", [](const RunRecord& run) { return run.filter_us_per_tick; }},
+    Column{"send_us_per_tick", [](const RunRecord& run) { return run.send_us_per_tick; }},
+    Column{"down_bytes_per_client_per_s", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
+    Column{"wire_bytes_per_client_per_s", [](const RunRecord& run) { return run.wire_bytes_per_client_per_s; }},
+    Column{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }},
+};
+
+std::optional<double> at_edge(const Saturation& saturation, const Column& column) { return saturation.edge ? column.of(*saturation.edge) : std::nullopt; }
+
+std::string number(std::optional<double> value) {
+  if (!value) return {};
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), *value).ptr};
+}
+
+std::string whole(std::optional<std::uint32_t> value) { return value ? std::to_string(*value) : std::string(); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char letter : text) result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return result + '"';
+}
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t width = 40;
+  return text.size() <= width ? text : text.substr(0, width - 3) + "...";
+}
+
+std::string thousand(std::optional<double> value) {
+  if (!value) return "-";
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g", *value / 1'000.0);
+  return text.data();
+}
+
+}  // namespace
+
+std::string held_text(const Search& search) {
+  const std::string held = search.held ? std::to_string(*search.held) : "none";
+  switch (search.end) {
+    case SearchEnd::bracketed:
+    case SearchEnd::one_fails: return held;
+    case SearchEnd::most_holds: return "at least " + held;
+    case SearchEnd::not_valid: return search.held ? "at least " + held : "unknown";
+    case SearchEnd::interrupted: return search.held ? "interrupted, at least " + held : "interrupted";
+  }
+  return held;
+}
+
+std::string to_csv(std::span<const Saturation> found) {
+  std::string csv = "mode,scheme,policy,pucks,server_cores,view_fraction,view_margin,sweep_ticks,cell_size,end,held_clients,failed_clients,why,probes";
+  for (const Column& column : columns) csv += std::string(",") + column.name;
+  csv += "\n";
+  for (const Saturation& saturation : found) {
+    const Cell& cell = saturation.cell;
+    csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.server_cores) + "," +
+           number(cell.parameters.view_fraction) + "," + number(cell.parameters.view_margin) + "," + std::to_string(cell.parameters.sweep_ticks) + "," +
+           number(cell.parameters.cell_size) + "," + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," +
+           quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
+    for (const Column& column : columns) csv += "," + number(at_edge(saturation, column));
+    csv += "\n";
+  }
+  return csv;
+}
+
+std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& level, const SearchLimits& limits) {
+  using Json = nlohmann::ordered_json;
+  const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+  Json searches = Json::array();
+  for (const Saturation& saturation : found) {
+    Json probes = Json::array(), edge = nullptr;
+    for (const Trial& trial : saturation.search.trials) probes.push_back({{"clients", trial.clients}, {"attempt", trial.attempt}, {"verdict", name_of(trial.verdict)}});
+    if (saturation.edge) {
+      edge = Json::object();
+      for (const Column& column : columns) edge[column.name] = or_null(column.of(*saturation.edge));
+    }
+    const Cell& cell = saturation.cell;
+    searches.push_back({{"mode", cell.mode}, {"scheme", cell.scheme}, {"policy", cell.policy}, {"pucks", cell.pucks}, {"server_cores", cell.server_cores},
+                        {"view_fraction", cell.parameters.view_fraction}, {"view_margin", cell.parameters.view_margin}, {"sweep_ticks", cell.parameters.sweep_ticks},
+                        {"cell_size", cell.parameters.cell_size}, {"end", name_of(saturation.search.end)}, {"held_clients", or_null(saturation.search.held)},
+                        {"failed_clients", or_null(saturation.search.failed)}, {"why", saturation.why}, {"edge", edge}, {"probes", probes}});
+  }
+  const Json whole_text = {{"service_level", {{"on_time_fraction_min", level.on_time_fraction_min}, {"age_p99_ms_max", level.age_p99_ms_max}}},
+                           {"limits", {{"first", limits.first}, {"most", limits.most}, {"resolution", limits.resolution}}}, {"searches", searches}};
+  return whole_text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string table_of(std::span<const Saturation> found, const ServiceLevel& level) {
+  std::array<char, 256> line;
+  std::snprintf(line.data(), line.size(), "largest number of clients with %g %% of ticks on time and p99 update age below %g ms\n", 100.0 * level.on_time_fraction_min, level.age_p99_ms_max);
+  std::string text = line.data();
+  std::snprintf(line.data(), line.size(), "%-7s %-13s %5s %13s %6s %7s %7s %7s %9s  %s\n", "scheme", "policy", "cores", "held", "failed", "physics", "filter", "send", "down kB/s", "why it failed");
+  text += line.data();
+  for (const Saturation& saturation : found) {
+    const auto part = [&saturation](std::size_t column) { return thousand(at_edge(saturation, columns[column])); };
+    std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %5u %13s %6s %7s %7s %7s %9s  %s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
+                  saturation.cell.server_cores, held_text(saturation.search).c_str(), whole(saturation.search.failed).c_str(), part(2).c_str(), part(3).c_str(),
+                  part(4).c_str(), part(5).c_str(), shortened(saturation.why).c_str());
+    text += line.data();
+  }
+  return text + "physics, filter, send: ms per tick at the edge; down: payload per client at the edge\n";
+}
+
+}  // namespace rink::loadgen

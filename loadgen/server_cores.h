@@ -1,0 +1,32 @@
+// The server on a processor of its own against both programs on any: what the second processor changes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loadgen/run_record.h"
+
+namespace rink::loadgen {
+
+/// One figure of runs in which both programs ran wherever the kernel put them, as a multiple of the same figure with the two apart. Runs are paired by seed.
+struct CoresRatio {
+  Cell cell;           ///< what the pairs have in common; seed and server_cores are those of the first run
+  std::string figure;  ///< a column of runs.jsonl, or total_us_per_tick
+  std::size_t pairs = 0;
+  double ratio = 0.0;                       ///< geometric mean
+  std::optional<double> low, high;          ///< 95 % t interval of the mean logarithm; absent for one pair
+  bool is_significant() const { return low && (*low > 1.0 || *high < 1.0); }
+};
+
+/// All ratios that the valid runs show, for each cell run with server_cores 1 and 2.
+std::vector<CoresRatio> cores_ratios_of(std::span<const RunRecord> runs);
+
+/// As CSV (RFC 4180), a line each; what is absent is empty.
+std::string to_csv(std::span<const CoresRatio> ratios);
+/// For a terminal, at most 100 columns; empty if there is none.
+std::string cores_table(std::span<const CoresRatio> ratios);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,53 @@
+// What replications say together: a mean or a ratio, its 95 % confidence interval, and whether a difference can be told from chance.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace rink::loadgen {
+
+/// All intervals here are of this confidence; replications are taken as independent and roughly normal (ratios: their logarithms).
+inline constexpr double interval_confidence = 0.95;
+
+struct Interval {
+  double low = 0.0, high = 0.0;
+  bool contains(double value) const { return low <= value && value <= high; }
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+/// The interval of the mean of `values` by Student's t with n - 1 degrees of freedom (Jain, The Art of Computer Systems Performance Analysis, 1991, 13.2; Le
+/// Boudec, Performance Evaluation of Computer and Communication Systems, 2010, theorem 2.2.2); nothing for fewer than two values.
+std::optional<Interval> interval_of_mean(std::span<const double> values);
+
+/// Whether replications tell two things apart.
+enum class Difference : std::uint8_t {
+  lower,         ///< the interval of the ratio lies below 1
+  higher,        ///< ... above 1
+  insignificant, ///< ... contains 1
+  unknown        ///< there is no interval: one replication cannot tell
+};
+
+/// How something compares with its baseline.
+struct Ratio {
+  double value = 1.0;                ///< geometric mean of own / baseline
+  std::optional<Interval> interval;  ///< absent for a single pair
+  std::size_t pairs = 0;
+
+  Difference difference() const;
+  /// Baseline / own: how many times less.
+  Ratio inverse() const;
+};
+
+/// The ratio over `pairs` of (own, baseline), one pair per seed: both played the same game, and what is particular to that game cancels, so the pairs' log ratios
+/// are averaged and not the parts (Jain 1991, 13.4.1, paired observations; 12.7 for why ratios are averaged geometrically). Nothing if there is no pair, or if one
+/// is not above 0 on both sides.
+std::optional<Ratio> ratio_of(std::span<const std::pair<double, double>> pairs);
+
+/// In words: "lower", "higher", "no significant difference", "cannot be told from one replication".
+const char* words_for(Difference difference);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,23 @@
+// Depth is signed, so that the instant of an entry can be found between two looks.
+#include "loadgen/truth/relevance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace rink::loadgen {
+
+double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent) {
+  const Vector2 offset = centre - bat;
+  if (area.shape == RelevanceArea::Shape::disc) return area.reach - offset.norm();
+  return std::min(area.reach + half_extent.x() - std::abs(offset.x()), area.reach + half_extent.y() - std::abs(offset.y()));
+}
+
+std::string text_of(const RelevanceArea& area) {
+  char text[96];
+  if (area.shape == RelevanceArea::Shape::disc) std::snprintf(text, sizeof text, "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
+  else std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box", 2.0 * area.reach);
+  return text;
+}
+
+}  // namespace rink::loadgen

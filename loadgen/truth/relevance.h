@@ -1,0 +1,26 @@
+// What truth calls relevant to a player: an area around its bat, and the way in which an entity is in it.
+#pragma once
+
+#include <string>
+
+#include "game/physics/body.h"
+
+namespace rink::loadgen {
+
+using physics::Vector2;
+
+/// `square`: an entity whose bounding box touches the closed square of half side `reach` around the bat's true centre. `disc`: one whose centre is at most
+/// `reach` from it.
+struct RelevanceArea {
+  enum class Shape : std::uint8_t { square, disc };
+  Shape shape = Shape::square;
+  double reach = 1.0;  ///< m, above 0
+};
+
+/// How deep an entity is within the area around a bat at `bat` [m]: relevant from 0 on, negative outside.
+double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent);
+
+/// For a reader, e.g. "square of 3.16 m around the bat, touched by the entity's box": the whole side, or the radius.
+std::string text_of(const RelevanceArea& area);
+
+}  // namespace rink::loadgen

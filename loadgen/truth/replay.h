@@ -1,0 +1,60 @@
+// A recorded game played again, look by look: the state that everything else is measured against.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/net/evidence.h"
+#include "loadgen/truth/surroundings.h"
+
+namespace rink::loadgen {
+
+/// Entities are named by the numbers of their bodies. Instants never decrease.
+class Replay {
+ public:
+  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks, game::SceneError if there is no such scene.
+  Replay(const game::ServerEvidence& evidence, const RelevanceArea& area);
+
+  /// Plays up to `instant_s`.
+  void advance(double instant_s);
+  /// Takes in where everything is now; asked for once for each instant at which `find` is used.
+  void look_around();
+
+  bool is_there(std::uint32_t entity) const { return entity < centres_.size() && centres_[entity].has_value(); }
+  /// At the last look; `entity` must have been there.
+  const Vector2& centre(std::uint32_t entity) const { return *centres_[entity]; }
+  /// Keeps this look for `centre_before`.
+  void remember() { before_ = centres_; }
+  /// At the look remembered, if it was there.
+  std::optional<Vector2> centre_before(std::uint32_t entity) const { return entity < before_.size() ? before_[entity] : std::nullopt; }
+  Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
+  void find(std::uint32_t own, std::vector<Relevant>& found) const { surroundings_.find(centre(own), own, found); }
+
+  std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;
+  std::optional<std::uint32_t> bat_of(std::uint32_t player) const;
+  std::uint32_t player_count() const { return game_.player_count(); }
+  /// Contacts since the instant before.
+  std::span<const physics::Impact> impacts() const { return game_.impacts(); }
+  std::uint64_t hash() const { return game_.hash(); }
+
+ private:
+  struct Away {
+    Vector2 centre;                 ///< where it left play
+    std::optional<double> until_s;  ///< the first tick after it was put back, once it was
+  };
+  Vector2 announced_centre(game::EntityId entity);
+
+  game::Game game_;
+  Surroundings surroundings_;
+  double rate_hz_;
+  std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play
+  std::unordered_map<std::uint32_t, std::uint32_t> entities_;  ///< by object
+  std::vector<Placed> placed_;
+  std::vector<std::optional<Vector2>> centres_, before_;  ///< by entity
+};
+
+}  // namespace rink::loadgen

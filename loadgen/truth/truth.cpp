@@ -1,0 +1,262 @@
+// One pass over the replayed game, stopping wherever a figure needs to know how things stood.
+#include "loadgen/truth/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "game/net/evidence_lines.h"
+#include "game/net/view.h"
+#include "loadgen/truth/classification.h"
+#include "loadgen/truth/replay.h"
+#include "loadgen/truth/scope_history.h"
+#include "loadgen/truth/stays.h"
+
+namespace rink::loadgen {
+namespace {
+
+/// Entries are found between looks this far apart [s], or an eighth of a tick if that is less.
+constexpr double look_s_max = 4e-3;
+
+/// A watched bot, and what it had been told by the instant at hand.
+struct Player {
+  explicit Player(std::vector<ScopeStep> told) : steps(told), delivered(told), at_contacts(std::move(told)) {}
+  std::optional<std::uint32_t> bat;
+  std::vector<ScopeStep> steps;
+  ScopeHistory delivered, at_contacts;
+  Stays stays;
+};
+
+/// Something to be judged at an instant; `index` is into what its kind is about.
+struct Look {
+  enum class Kind : std::uint8_t { step, decision, displayed, matched };
+  double instant_s;
+  Kind kind;
+  std::size_t index;
+};
+
+class Judgement {
+ public:
+  Judgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) : server_(server), bots_(bots), area_(area), replay_(server, area) {
+    for (const BotsEvidence::Bot& bot : bots.bots) add_player(bot);
+    plan_looks();
+  }
+
+  TruthFigures figures() {
+    double looked_s = -1.0;
+    for (const Look& look : looks_) {
+      replay_.advance(look.instant_s);
+      judge_contacts();
+      if (look.instant_s != looked_s) replay_.look_around();
+      looked_s = look.instant_s;
+      judge(look);
+    }
+    replay_.advance(server_.end_s);
+    judge_contacts();
+    if (replay_.hash() != server_.state_hash) throw DifferentGame("the game played again from the server's evidence does not end in the server's state");
+    return sums();
+  }
+
+ private:
+  void add_player(const BotsEvidence::Bot& bot) {
+    std::vector<ScopeStep> steps;
+    for (const BotsEvidence::ScopeChange& change : bot.changes)
+      if (const auto entity = replay_.entity_of_object(change.object)) steps.push_back({change.instant_s, *entity, change.is_in});
+    std::stable_sort(steps.begin(), steps.end(), [](const ScopeStep& a, const ScopeStep& b) { return a.instant_s < b.instant_s; });
+    players_.emplace_back(std::move(steps)).bat = replay_.entity_of_object(bot.object);
+  }
+
+  void plan_looks() {
+    const double look_s = std::min(look_s_max, 0.125 / server_.rate_hz);
+    const double until_s = std::min(server_.until_s, server_.end_s);
+    for (std::size_t i = 0; server_.from_s + static_cast<double>(i) * look_s <= until_s; ++i) looks_.push_back({server_.from_s + static_cast<double>(i) * look_s, Look::Kind::step, i});
+    for (std::size_t i = 0; i < server_.decisions.size(); ++i) looks_.push_back({server_.decisions[i].instant_s, Look::Kind::decision, i});
+    for (std::size_t i = 0; i < bots_.samples.size(); ++i) {
+      looks_.push_back({bots_.samples[i].displayed_s, Look::Kind::displayed, i});
+      looks_.push_back({bots_.samples[i].matched_s, Look::Kind::matched, i});
+    }
+    std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= 0.0 && look.instant_s <= server_.end_s); });
+    std::stable_sort(looks_.begin(), looks_.end(), [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
+  }
+
+  void judge(const Look& look) {
+    switch (look.kind) {
+      case Look::Kind::step: return judge_entries(look.instant_s);
+      case Look::Kind::decision: return judge_decision(server_.decisions[look.index]);
+      case Look::Kind::displayed: return judge_displayed(bots_.samples[look.index]);
+      case Look::Kind::matched: return judge_matched(bots_.samples[look.index]);
+    }
+  }
+
+  bool is_present(const Player& player) const { return player.bat && replay_.is_there(*player.bat); }
+
+  void judge_entries(double instant_s) {
+    for (Player& player : players_) {
+      if (!is_present(player)) continue;
+      replay_.find(*player.bat, relevant_);
+      player.delivered.advance(instant_s);
+      player.stays.look(instant_s, relevant_, player.delivered, [&](std::uint32_t entity) { return depth_before(*player.bat, entity); });
+    }
+    replay_.remember();
+  }
+
+  std::optional<double> depth_before(std::uint32_t bat, std::uint32_t entity) const {
+    const auto from = replay_.centre_before(bat), at = replay_.centre_before(entity);
+    if (!from || !at) return std::nullopt;
+    return depth(area_, *from, *at, replay_.half_extent(entity));
+  }
+
+  void judge_decision(const game::ServerEvidence::Decision& decision) {
+    if (decision.player >= replay_.player_count()) throw game::EvidenceError("the server's evidence has a decision for player " + std::to_string(decision.player) + ", who is not in its scene");
+    const auto bat = replay_.bat_of(decision.player);
+    if (!bat) return;
+    chosen_.clear();
+    for (const std::uint32_t object : server_.scope_of(decision)) {
+      const auto entity = replay_.entity_of_object(object);
+      if (entity && *entity != *bat) chosen_.push_back(*entity);
+    }
+    std::sort(chosen_.begin(), chosen_.end());
+    replay_.find(*bat, relevant_);
+    filter_.add(chosen_, relevant_);
+  }
+
+  bool is_relevant(std::uint32_t entity) const {
+    const auto found = std::lower_bound(relevant_.begin(), relevant_.end(), entity, [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
+    return found != relevant_.end() && found->entity == entity;
+  }
+
+  void judge_displayed(const BotsEvidence::Sample& sample) {
+    Player& player = players_[sample.bot];
+    if (!is_present(player)) return;
+    replay_.find(*player.bat, relevant_);
+    player.delivered.advance(sample.displayed_s);
+    player.delivered.list(*player.bat, chosen_);
+    delivered_.add(chosen_, relevant_);
+    for (std::size_t i = sample.first; i < sample.last; ++i) {
+      const BotsEvidence::Belief& belief = bots_.beliefs[i];
+      const auto entity = replay_.entity_of_object(belief.object);
+      if (!entity || *entity == *player.bat) continue;
+      bytes_ += belief.bytes;
+      if (!is_relevant(*entity)) wasted_bytes_ += belief.bytes;
+      else if (belief.is_in_scope) displayed_error_.add((belief.displayed - replay_.centre(*entity)).norm());
+    }
+  }
+
+  void judge_matched(const BotsEvidence::Sample& sample) {
+    const Player& player = players_[sample.bot];
+    if (!is_present(player)) return;
+    replay_.find(*player.bat, relevant_);
+    for (std::size_t i = sample.first; i < sample.last; ++i) {
+      const BotsEvidence::Belief& belief = bots_.beliefs[i];
+      const auto entity = replay_.entity_of_object(belief.object);
+      if (!belief.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity)) continue;
+      matched_error_.add((belief.matched - replay_.centre(*entity)).norm());
+    }
+  }
+
+  /// A contact counts for each of its bodies that is a watched player's bat.
+  void judge_contacts() {
+    for (const physics::Impact& impact : replay_.impacts()) {
+      if (impact.time <= contacts_until_s_ || impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other) continue;
+      for (Player& player : players_) {
+        if (player.bat == impact.body.index) judge_contact(player, impact.other->index, impact.time);
+        if (player.bat == impact.other->index) judge_contact(player, impact.body.index, impact.time);
+      }
+    }
+    if (!replay_.impacts().empty()) contacts_until_s_ = std::max(contacts_until_s_, replay_.impacts().back().time);
+  }
+
+  void judge_contact(Player& player, std::uint32_t entity, double instant_s) {
+    player.at_contacts.advance(instant_s);
+    ++contacts_;
+    if (!player.at_contacts.contains(entity)) ++missed_contacts_;
+  }
+
+  TruthFigures sums();
+  Percentiles late_entries();
+
+  const game::ServerEvidence& server_;
+  const BotsEvidence& bots_;
+  RelevanceArea area_;
+  Replay replay_;
+  std::vector<Player> players_;
+  std::vector<Look> looks_;
+  std::vector<Relevant> relevant_;
+  std::vector<std::uint32_t> chosen_;
+  Classification filter_, delivered_;
+  PositionErrors displayed_error_, matched_error_;
+  std::uint64_t bytes_ = 0, wasted_bytes_ = 0, contacts_ = 0, missed_contacts_ = 0;
+  double contacts_until_s_ = -1.0;
+};
+
+std::optional<double> ratio(double part, double whole) {
+  if (!(whole > 0.0)) return std::nullopt;
+  return part / whole;
+}
+
+Percentiles Judgement::late_entries() {
+  std::vector<double> late_s;
+  for (Player& player : players_) {
+    player.stays.end();
+    late_s.insert(late_s.end(), player.stays.lateness_s().begin(), player.stays.lateness_s().end());
+  }
+  return percentiles_ms(std::move(late_s));
+}
+
+TruthFigures Judgement::sums() {
+  TruthFigures figures;
+  figures.relevance = text_of(area_);
+  figures.filter_precision = filter_.precision();
+  figures.filter_recall = filter_.recall();
+  if (!bots_.is_complete || players_.empty()) return figures;
+  ScopeChanges changes;
+  for (const Player& player : players_) {
+    if (!player.bat) continue;
+    const ScopeChanges own = count_changes(player.steps, *player.bat, server_.from_s, server_.until_s);
+    changes.entries += own.entries, changes.exits += own.exits, changes.flaps += own.flaps;
+  }
+  figures.delivered_precision = delivered_.precision();
+  figures.delivered_recall = delivered_.recall();
+  figures.interactions = contacts_;
+  figures.missed_interactions = missed_contacts_;
+  figures.late_entry_ms = late_entries();
+  figures.position_error_mm = matched_error_.figures();
+  figures.displayed_error_mm = displayed_error_.figures();
+  figures.churn_per_client_per_s = ratio(static_cast<double>(changes.entries + changes.exits), static_cast<double>(players_.size()) * (server_.until_s - server_.from_s));
+  figures.flapping_fraction = ratio(static_cast<double>(changes.flaps), static_cast<double>(changes.entries));
+  figures.wasted_bytes_fraction = ratio(static_cast<double>(wasted_bytes_), static_cast<double>(bytes_));
+  return figures;
+}
+
+}  // namespace
+
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return Judgement(server, bots, area).figures(); }
+
+RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const physics::Field& field) {
+  const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
+  return {experiment.relevance == Relevance::rectangle ? RelevanceArea::Shape::square : RelevanceArea::Shape::disc, reach};
+}
+
+void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file) {
+  try {
+    const game::ServerEvidence server = game::read_server_evidence(server_file);
+    const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice).world.field);
+    record.truth.relevance = text_of(area);
+    std::vector<double> ticks_s;
+    for (const game::ServerEvidence::Tick& tick : server.ticks) ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
+    const bool has_costs = std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; });
+    if (has_costs) record.tick_us = percentiles_us(std::move(ticks_s));  // under a virtual clock nothing takes time
+    const BotsEvidence bots = read_bots_evidence(bots_file);
+    TruthFigures figures = truth_of(server, bots, area);
+    figures.control_bytes_fraction = record.truth.control_bytes_fraction;
+    figures.fairness_jain = record.truth.fairness_jain;
+    record.truth = figures;
+    if (!bots.is_complete) record.truth.trouble = bots_file + ": more scopes changed than there was room for; what was delivered is not judged";
+  } catch (const DifferentGame& error) {
+    record.valid = false;
+    record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + std::string(error.what());
+  } catch (const std::exception& error) {
+    record.truth.trouble = error.what();
+  }
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,29 @@
+// Computes a run's quality afterwards: plays the game again, exactly, and holds what server and bots said against it.
+#pragma once
+
+#include "game/net/evidence.h"
+#include "game/net/evidence_lines.h"
+#include "loadgen/bots_evidence.h"
+#include "loadgen/run_record.h"
+#include "loadgen/truth/relevance.h"
+
+namespace rink::loadgen {
+
+/// The game played again from the evidence is not the one that the server played: nothing that was measured in it can be trusted.
+class DifferentGame : public game::EvidenceError {
+ public:
+  using game::EvidenceError::EvidenceError;
+};
+
+/// All figures but fairness and control bytes, which are counts of the reports. Definitions: docs/metrics.md. Throws game::EvidenceError if the game played again does
+/// not end in the server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the scene cannot be read.
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area);
+
+/// The area that `experiment` calls relevant in `cell`, played on `field`.
+RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const physics::Field& field);
+
+/// Reads both files and fills `record.truth` and `record.tick_us`. Evidence that is missing, truncated or altered leaves the figures absent and says why in
+/// `record.truth.trouble`; a game that ends elsewhere when it is played again makes the run invalid. Throws nothing.
+void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file);
+
+}  // namespace rink::loadgen

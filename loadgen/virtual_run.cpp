@@ -1,0 +1,353 @@
+// A discrete-event loop: whatever is due next, an arrival, a key or a tick, is when the clock moves to.
+#include "loadgen/virtual_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/control/key_log.h"
+#include "game/model/scene_file.h"
+#include "game/net/fom_file.h"
+#include "game/replication/trajectory_codec.h"
+#include "game/net/serving.h"
+#include "game/players/player.h"
+#include "loadgen/bot_crowd.h"
+#include "loadgen/game_plan.h"
+#include "loadgen/results.h"
+#include "loadgen/truth/truth.h"
+#include "rti/transport/virtual_network.h"
+
+namespace rink::loadgen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+constexpr const char* server_name = "server";
+
+std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
+
+/// The first whole nanosecond that is not before `instant_s` on a clock that shows 1e-9 times its nanoseconds.
+std::int64_t not_before(double instant_s) {
+  auto instant_ns = static_cast<std::int64_t>(std::floor(1e9 * instant_s)) - 1;
+  while (1e-9 * static_cast<double>(instant_ns) < instant_s) ++instant_ns;
+  return instant_ns;
+}
+
+struct Interrupted {};
+/// A run that cannot go on; `why` becomes the record's reason.
+struct Failure {
+  std::string why;
+};
+
+/// What a server's figures are made of, at one instant.
+struct ServerCounts {
+  rti::FederationCounters federation;
+  rti::TransportCounters transport;
+  im::FilterCounters filter;
+  physics::Counters physics;
+};
+
+class VirtualRun {
+ public:
+  VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
+
+  void run();
+  Json server_report() const;
+  Json bots_report() const;
+  /// Writes what server and bots saw; only if the run is to be judged by truth.
+  void write_evidence(const std::string& server_file, const std::string& bots_file) const;
+  /// What the connections carried from first to last; after `end`.
+  void end(Json& server_report);
+
+ private:
+  static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys);
+  static rti::FederationSettings federation_settings(const Cell& cell, const game::Scene& scene);
+  static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
+
+  double now_s() const { return network_.now_s(); }
+  double simulated_now() const { return start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }
+  void heed_interrupt() const {
+    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
+  }
+  std::int64_t next_instant_ns() const;
+  void advance_until(std::int64_t until_ns);
+  template <class Condition>
+  void await(const std::string& what, Condition is_met);
+  void start();
+  void play();
+  ServerCounts counts() const;
+
+  const RunnerSettings& settings_;
+  const Experiment& experiment_;
+  const Cell& cell_;
+  rti::ConstantDelay link_;
+  rti::VirtualNetwork network_;
+  rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
+  game::Serving serving_;
+  game::Server& server_;
+  BotCrowd crowd_;
+  std::int64_t start_ns_ = 0, measured_from_ns_ = 0, measured_until_ns_ = 0;
+  std::uint64_t ticks_ = 0;
+  ServerCounts begin_, end_;
+};
+
+game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys) {
+  game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / experiment.tick_rate_hz, .replay = {}};
+  if (experiment.keys == KeySource::replay) settings.replay = keys;
+  return settings;
+}
+
+rti::FederationSettings VirtualRun::federation_settings(const Cell& cell, const game::Scene& scene) {
+  rti::FederationSettings settings;
+  settings.filter = cell.scheme;
+  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell.parameters.cell_size};
+  return settings;
+}
+
+BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const Cell& cell) {
+  BotCrowdSettings settings;
+  settings.view_fraction = cell.parameters.view_fraction;
+  settings.view_area = experiment.view_area;
+  settings.view_margin = cell.parameters.view_margin;
+  settings.warm_up_s = experiment.warm_up_s;
+  settings.duration_s = experiment.warm_up_s + experiment.duration_s;
+  if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players))
+    settings.players = {.kind = experiment.players, .rules = game::rules_of(game::load_scene(experiment.scene), 0), .seed = cell.seed};
+  return settings;
+}
+
+VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene,
+                       const std::vector<game::InputEvent>& keys)
+    : settings_(settings),
+      experiment_(experiment),
+      cell_(cell),
+      link_(nanoseconds(1e-3 * experiment.delay_ms)),
+      network_(link_),
+      serving_(fom, scene, server_settings(experiment, cell, keys), federation_settings(cell, scene), [this] { return now_s(); }, [this] { return simulated_now(); }),
+      server_(serving_.server()),
+      crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
+  if (settings.wants_truth) {
+    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = experiment.warm_up_s + experiment.duration_s}, experiment.tick_rate_hz);
+    crowd_.collect_evidence(cell.seed);
+  }
+  server_end_.listen(server_name);
+  serving_.host().add(server_end_);
+}
+
+std::int64_t VirtualRun::next_instant_ns() const {
+  const std::optional<std::int64_t> arrival_ns = network_.next_arrival_ns();
+  const std::optional<double> due_s = crowd_.next_due_s();
+  std::int64_t next_ns = arrival_ns.value_or(INT64_MAX);
+  if (due_s) next_ns = std::min(next_ns, std::max(network_.now_ns(), not_before(*due_s)));
+  return next_ns;
+}
+
+/// Lets everything happen that happens up to `until_ns`, itself included.
+void VirtualRun::advance_until(std::int64_t until_ns) {
+  for (std::int64_t next_ns = next_instant_ns(); next_ns <= until_ns; next_ns = next_instant_ns()) {
+    network_.advance_to(next_ns);
+    if (server_end_.has_arrivals()) serving_.exchange(0.0);
+    crowd_.run_once();
+  }
+  network_.advance_to(until_ns);
+}
+
+/// Publishes every tick's time, as the server does before the start, until `is_met`. Every step of the way takes a delay or a tick, and there are few.
+template <class Condition>
+void VirtualRun::await(const std::string& what, Condition is_met) {
+  constexpr std::int64_t steps_max = 64;
+  const std::int64_t step_ns = nanoseconds(1.0 / experiment_.tick_rate_hz), limit_ns = network_.now_ns() + steps_max * (step_ns + nanoseconds(1e-3 * experiment_.delay_ms));
+  game::TickCosts uncounted;
+  while (!is_met()) {
+    heed_interrupt();
+    if (!server_.trouble().empty()) throw Failure{"the server: " + server_.trouble()};
+    if (crowd_.lost_count() > 0) throw Failure{"the bots: " + crowd_.first_trouble()};
+    if (network_.now_ns() > limit_ns) throw Failure{"waited in vain for " + what};
+    advance_until(network_.now_ns() + step_ns);
+    serving_.exchange(0.0);
+    if (server_.is_joined()) serving_.send(0.0, 0.0, uncounted);
+    serving_.host().advance_clock(now_s());
+    crowd_.run_once();
+  }
+}
+
+void VirtualRun::start() {
+  crowd_.connect([this](std::uint32_t) { return bots_end_.connect(server_name); });
+  await("the players", [this] { return server_.is_joined() && server_.player_count() == cell_.clients; });
+  server_.call_to_start();
+  await("the start barrier", [this] { return server_.is_started(); });
+  start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;  // a whole second: sums with it are rounded least
+}
+
+void VirtualRun::play() {
+  const double rate_hz = experiment_.tick_rate_hz, played_s = experiment_.warm_up_s + experiment_.duration_s;
+  const auto last = static_cast<std::uint64_t>(std::floor(played_s * rate_hz + 1e-9));
+  for (std::uint64_t number = 0; number <= last; ++number) {
+    heed_interrupt();
+    const double simulated_s = static_cast<double>(number) / rate_hz;
+    advance_until(start_ns_ + nanoseconds(simulated_s));
+    if (ticks_ == 0 && simulated_s >= experiment_.warm_up_s) {
+      begin_ = counts();
+      measured_from_ns_ = network_.now_ns();
+    }
+    serving_.tick(simulated_s, now_s());
+    crowd_.run_once();
+    if (simulated_s >= experiment_.warm_up_s) ++ticks_;
+  }
+  end_ = counts();
+  measured_until_ns_ = network_.now_ns();
+  advance_until(start_ns_ + nanoseconds(played_s) + 4 * nanoseconds(1e-3 * experiment_.delay_ms) + 1);  // the last answers
+}
+
+void VirtualRun::run() {
+  start();
+  play();
+}
+
+ServerCounts VirtualRun::counts() const {
+  return {serving_.execution().counters(), server_end_.totals(), serving_.execution().filter().counters(), server_.game().world().counters()};
+}
+
+Json VirtualRun::server_report() const {
+  const rti::FederationCounters &begin = begin_.federation, &end = end_.federation;
+  std::uint64_t dropped = 0;
+  for (const std::uint64_t count : end.drops) dropped += count;
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(server_.game().hash()));
+  const std::string why = !server_.trouble().empty() ? server_.trouble() : ticks_ == 0 ? "no tick was measured" : "";
+  return {{"mode", cell_.mode},
+          {"scheme", cell_.scheme},
+          {"policy", cell_.policy},
+          {"clients", cell_.clients},
+          {"entities", server_.game().entities().size()},
+          {"seed", cell_.seed},
+          {"tick_rate_hz", experiment_.tick_rate_hz},
+          {"ticks", ticks_},
+          {"ticks_on_time_fraction", nullptr},
+          {"physics_us_per_tick", nullptr},
+          {"filter_us_per_tick", nullptr},
+          {"send_us_per_tick", nullptr},
+          {"server_rss_bytes", nullptr},
+          {"state_hash", hash},
+          {"measured_s", 1e-9 * static_cast<double>(measured_until_ns_ - measured_from_ns_)},
+          {"bytes_sent", end_.transport.bytes_sent - begin_.transport.bytes_sent},
+          {"bytes_received", end_.transport.bytes_received - begin_.transport.bytes_received},
+          {"writes_sent", end_.transport.writes - begin_.transport.writes},
+          {"segments_sent", end_.transport.segments_sent - begin_.transport.segments_sent},
+          {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
+          {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},
+          {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
+          {"scope_entries", end.scope_entries - begin.scope_entries},
+          {"scope_exits", end.scope_exits - begin.scope_exits},
+          {"physics_events", end_.physics.events() - begin_.physics.events()},
+          {"filter_regions_moved", end_.filter.regions_moved - begin_.filter.regions_moved},
+          {"filter_pairs_tested", end_.filter.pairs_tested - begin_.filter.pairs_tested},
+          {"lost_federates", server_.counters().federates_lost},
+          {"dropped_connections", dropped + serving_.host().closed_by_full_queue()},
+          {"keys_received", server_.counters().keys_received},
+          {"keys_applied", server_.counters().keys_applied},
+          {"keys_refused", server_.counters().keys_refused},
+          {"valid", why.empty()},
+          {"why_invalid", why}};
+}
+
+Json VirtualRun::bots_report() const {
+  const Measurements& measured = crowd_.measurements();
+  const CrowdTraffic traffic = crowd_.traffic(), total = crowd_.total_traffic();
+  std::string why;
+  if (crowd_.lost_count() > 0) why = std::to_string(crowd_.lost_count()) + " of " + std::to_string(cell_.clients) + " bots were lost: " + crowd_.first_trouble();
+  else if (!crowd_.is_over()) why = "the game did not end";
+  else if (measured.keys_sent < measured.keys_due) why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
+  return {{"clients", cell_.clients},
+          {"measured_s", crowd_.measured_s()},
+          {"bytes_received", traffic.bytes_received},
+          {"bytes_sent", traffic.bytes_sent},
+          {"segments_sent", traffic.segments_sent},
+          {"updates_received", traffic.updates_received},
+          {"update_age_ms", measured.update_age.to_json()},
+          {"key_to_effect_ms", measured.key_to_effect.to_json()},
+          {"keys_due", measured.keys_due},
+          {"keys_sent", measured.keys_sent},
+          {"keys_unanswered", crowd_.unanswered_keys()},
+          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
+          {"send_lateness_ms", measured.send_lateness.to_json()},
+          {"federates_lost", crowd_.lost_count()},
+          {"bytes_received_by_bot", crowd_.bytes_received_by_bot()},
+          {"memory_bytes_per_client", crowd_.client_memory_bytes() / cell_.clients},
+          {"total_bytes_received", total.bytes_received},
+          {"total_bytes_sent", total.bytes_sent},
+          {"kernel_bytes_received", nullptr},
+          {"kernel_bytes_sent", nullptr},
+          {"valid", why.empty()},
+          {"why_invalid", why}};
+}
+
+void VirtualRun::write_evidence(const std::string& server_file, const std::string& bots_file) const {
+  game::ServerEvidence server = serving_.evidence().value();
+  server.choice = {.scene = experiment_.scene, .bats = experiment_.population == Population::per_client ? cell_.clients : 0u, .bat_count = cell_.bats, .puck_count = cell_.pucks, .seed = cell_.seed};
+  server.scheme = cell_.scheme;
+  server.policy = cell_.policy;
+  game::write_evidence(server_file, server);
+  loadgen::write_evidence(bots_file, crowd_.evidence().value());
+}
+
+void VirtualRun::end(Json& server_report) {
+  crowd_.resign();
+  const std::int64_t delay_ns = nanoseconds(1e-3 * experiment_.delay_ms);
+  advance_until(network_.now_ns() + 2 * delay_ns);
+  server_report["total_bytes_sent"] = server_end_.totals().bytes_sent;
+  server_report["total_bytes_received"] = server_end_.totals().bytes_received;
+  server_report["kernel_bytes_sent"] = nullptr;
+  server_report["kernel_bytes_received"] = nullptr;
+}
+
+void write_json(const std::filesystem::path& file, const Json& content) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << content.dump(2) << '\n' << std::flush;
+  if (!stream) throw OutputError(file.string() + ": cannot be written");
+}
+
+std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log, const game::Scene& scene) {
+  if (key_log.empty()) return {};
+  game::KeyLog log = game::read_key_log(key_log);
+  game::require_fit(log, scene, key_log);
+  return std::move(log.events);
+}
+
+void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
+  const rti::Fom fom = game::load_rink_fom(game::fom_file());
+  const game::Scene scene = scene_of(experiment, cell);
+  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene));
+  run.run();
+  Json server = run.server_report();
+  const Json bots = run.bots_report();
+  const std::string server_evidence = settings.directory / (name_of(cell) + ".server.jsonl"), bots_evidence = settings.directory / (name_of(cell) + ".bots.jsonl");
+  if (settings.wants_truth) run.write_evidence(server_evidence, bots_evidence);
+  run.end(server);
+  write_json(settings.directory / (name_of(cell) + ".server.json"), server);
+  write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);
+  judge(record, server, bots);
+  if (settings.wants_truth) add_truth(record, experiment, server_evidence, bots_evidence);
+}
+
+}  // namespace
+
+std::optional<RunRecord> run_virtual_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
+  RunRecord record = record_for(experiment, cell);
+  try {
+    run(settings, experiment, cell, key_log, record);
+  } catch (const Failure& failure) {
+    record.why_invalid = failure.why;
+  } catch (const game::SceneError& error) {
+    throw ExperimentError(error.what());
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+  return record;
+}
+
+}  // namespace rink::loadgen

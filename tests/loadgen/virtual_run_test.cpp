@@ -1,0 +1,200 @@
+// Runs under a virtual clock: closed forms of their latencies, the same game as elsewhere, the same bytes every time.
+#include "loadgen/virtual_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <set>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "game/control/game.h"
+#include "game/control/key_log.h"
+#include "loadgen/campaign.h"
+#include "loadgen/game_plan.h"
+#include "loadgen/summary.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class VirtualRunTest : public testing::Test {
+ protected:
+  VirtualRunTest() {
+    std::string pattern = testing::TempDir() + "rink-virtual-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    settings_.directory = folder_;
+    settings_.serve = std::string(RINK_BINARY_DIR) + "/bin/rink-serve";
+    settings_.bots = std::string(RINK_BINARY_DIR) + "/bin/rink-bots";
+    experiment_.name = "small";
+    experiment_.scene = "crowd";
+    experiment_.transport = TransportKind::virtual_time;
+    experiment_.population = Population::per_client;
+    experiment_.schemes = {"none", "region"};
+    experiment_.clients = {6};
+    experiment_.seeds = {3};
+    experiment_.tick_rate_hz = 20.0;
+    experiment_.warm_up_s = 0.25;
+    experiment_.duration_s = 2.0;
+  }
+  ~VirtualRunTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path key_log(const Cell& cell) const {
+    const std::filesystem::path file = folder_ / "log.keys";
+    write_game_plan(experiment_, cell, file);
+    return file;
+  }
+  RunRecord run(const Cell& cell) const {
+    const auto record = run_virtual_cell(settings_, experiment_, cell, key_log(cell));
+    EXPECT_TRUE(record);
+    EXPECT_EQ(record.value_or(RunRecord{}).why_invalid, "");
+    return record.value_or(RunRecord{});
+  }
+  nlohmann::json report(const Cell& cell, const char* who) const { return nlohmann::json::parse(text_of(folder_ / (name_of(cell) + "." + who + ".json"))); }
+  Cell first_cell() const { return cells_of(experiment_).front(); }
+
+  std::filesystem::path folder_;
+  RunnerSettings settings_;
+  Experiment experiment_;
+};
+
+TEST_F(VirtualRunTest, EveryUpdateIsExactlyAsOldAsTheDelay) {
+  for (const double delay_ms : {0.0, 10.0, 137.25}) {
+    experiment_.delay_ms = delay_ms;
+    const Cell cell = first_cell();
+    const RunRecord record = run(cell);
+    const nlohmann::json ages = report(cell, "bots")["update_age_ms"];
+    EXPECT_NEAR(ages["min_s"].get<double>(), 1e-3 * delay_ms, 1e-12);
+    EXPECT_NEAR(ages["max_s"].get<double>(), 1e-3 * delay_ms, 1e-12);
+    EXPECT_EQ(ages["count"], 6 * 40) << "one per client and measured tick";
+    EXPECT_EQ(record.ticks, 41u) << "from the first instant measured to the last";
+  }
+}
+
+TEST_F(VirtualRunTest, AKeyTakesEffectAfterTwoDelaysAndTheWaitForTheTickBetween) {
+  experiment_.delay_ms = 30.0;
+  const Cell cell = first_cell();
+  const double delay_s = 1e-3 * experiment_.delay_ms, rate_hz = experiment_.tick_rate_hz, last_s = experiment_.warm_up_s + experiment_.duration_s;
+  run(cell);
+  double sum_s = 0.0, least_s = 1e9, greatest_s = 0.0;
+  std::uint64_t answered = 0, due = 0;
+  for (const game::InputEvent& key : game::read_key_log(folder_ / "log.keys").events) {
+    if (key.time < experiment_.warm_up_s || key.time >= last_s) continue;
+    ++due;
+    const double tick_s = std::ceil((key.time + delay_s) * rate_hz) / rate_hz;
+    if (tick_s > last_s) continue;
+    const double effect_s = tick_s + delay_s - key.time;
+    sum_s += effect_s;
+    least_s = std::min(least_s, effect_s);
+    greatest_s = std::max(greatest_s, effect_s);
+    ++answered;
+  }
+  ASSERT_GT(answered, 20u);
+  const nlohmann::json bots = report(cell, "bots");
+  EXPECT_EQ(bots["keys_due"], due);
+  EXPECT_EQ(bots["key_to_effect_ms"]["count"], answered);
+  EXPECT_NEAR(bots["key_to_effect_ms"]["sum_s"].get<double>(), sum_s, 2e-9 * static_cast<double>(answered)) << "the clock counts whole nanoseconds";
+  EXPECT_NEAR(bots["key_to_effect_ms"]["min_s"].get<double>(), least_s, 2e-9);
+  EXPECT_NEAR(bots["key_to_effect_ms"]["max_s"].get<double>(), greatest_s, 2e-9);
+  EXPECT_LE(bots["send_lateness_ms"]["max_s"].get<double>(), 1e-9);
+}
+
+TEST_F(VirtualRunTest, PlaysTheVeryGameThatTheKeysPlayAlone) {
+  const Cell cell = first_cell();
+  game::Game game(scene_of(experiment_, cell));
+  key_log(cell);
+  for (const game::InputEvent& key : game::read_key_log(folder_ / "log.keys").events) game.submit(key);
+  game.advance(experiment_.warm_up_s + experiment_.duration_s);
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(game.hash()));
+  for (const Cell& each : cells_of(experiment_)) EXPECT_EQ(run(each).state_hash, hash) << each.scheme;
+}
+
+TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
+  experiment_.warm_up_s = 0.1;
+  experiment_.duration_s = 0.4;
+  const Cell cell = first_cell();
+  const RunRecord virtual_record = run(cell);
+  const nlohmann::json virtual_server = report(cell, "server"), virtual_bots = report(cell, "bots");
+  experiment_.transport = TransportKind::tcp;
+  const auto real_record = run_cell(settings_, experiment_, cell, folder_ / "log.keys");
+  ASSERT_TRUE(real_record);
+  ASSERT_NE(real_record->state_hash, "") << real_record->why_invalid;
+  EXPECT_EQ(virtual_record.state_hash, real_record->state_hash);
+  EXPECT_EQ(virtual_record.ticks, real_record->ticks);
+  EXPECT_EQ(virtual_record.entities, real_record->entities);
+  for (const auto& [who, mine] : std::map<const char*, nlohmann::json>{{"server", virtual_server}, {"bots", virtual_bots}})
+  {
+    const nlohmann::json over_sockets = report(cell, who);
+    const std::set<std::string> of_processes{"cpu_share", "evidence_bytes", "histogram_ns_per_record"};  // what their clocks and memory say of themselves
+    for (const auto& [key, value] : over_sockets.items())
+      EXPECT_TRUE(of_processes.contains(key) || mine.contains(key)) << "the " << who << "' report over sockets has " << key;
+  }
+}
+
+TEST_F(VirtualRunTest, TheSameSeedGivesTheSameBytesWhereverItRuns) {
+  std::map<std::string, std::string> first;
+  for (const char* place : {"a", "a deeper/place"}) {
+    ResultsDirectory results(folder_ / place, true);
+    settings_.directory = results.subdirectory("cells");
+    std::ostringstream said;
+    Progress progress(said, false, 2, 1.0);
+    const auto write_keys = [this](const Cell& cell, const std::filesystem::path& file) { write_game_plan(experiment_, cell, file); };
+    const Outcome outcome = run_campaign(experiment_, settings_, results, write_keys, progress);
+    results.write("summary.csv", to_csv(summarise(outcome.runs)));
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(results.path()))
+      if (entry.is_regular_file()) files[std::filesystem::relative(entry.path(), results.path())] = text_of(entry.path());
+    EXPECT_GE(files.size(), 7u) << "runs, summary, a key log, and two reports for each of two cells";
+    if (first.empty()) first = files;
+    for (const auto& [name, content] : first) EXPECT_EQ(files[name], content) << name;
+    EXPECT_EQ(files.size(), first.size());
+  }
+}
+
+TEST_F(VirtualRunTest, LiveKeysTakeEffectWhenTheyArrive) {
+  experiment_.keys = KeySource::live;
+  experiment_.delay_ms = 40.0;
+  const Cell cell = first_cell();
+  const RunRecord record = run(cell);
+  game::Game game(scene_of(experiment_, cell));
+  const double last_s = experiment_.warm_up_s + experiment_.duration_s;
+  std::vector<game::InputEvent> keys = game::read_key_log(folder_ / "log.keys").events;
+  std::uint64_t applied = 0;
+  for (const game::InputEvent& key : keys) applied += key.time + 0.04 <= last_s ? 1u : 0u;
+  const nlohmann::json server = report(cell, "server");
+  EXPECT_EQ(server["keys_received"], keys.size() - static_cast<std::size_t>(std::ranges::count_if(keys, [&](const auto& key) { return key.time >= last_s; })));
+  EXPECT_EQ(server["keys_applied"], applied);
+  EXPECT_EQ(run(cell).state_hash, record.state_hash);
+}
+
+TEST_F(VirtualRunTest, WhatNeedsAClockOrAKernelIsAbsentAndNoFault) {
+  const RunRecord record = run(first_cell());
+  EXPECT_TRUE(record.valid);
+  EXPECT_FALSE(record.physics_us_per_tick || record.filter_us_per_tick || record.send_us_per_tick || record.server_rss_bytes || record.server_cpu_s);
+  EXPECT_GT(record.down_bytes_per_client_per_s.value_or(0.0), 0.0);
+  EXPECT_GT(record.wire_bytes_per_client_per_s.value_or(0.0), record.down_bytes_per_client_per_s.value_or(0.0));
+  const nlohmann::json server = report(first_cell(), "server");
+  EXPECT_GT(server["physics_events"], 0);
+  EXPECT_EQ(server["total_bytes_received"], report(first_cell(), "bots")["total_bytes_sent"].get<std::uint64_t>() + 6 * 5) << "the bots take their leave after their report";
+}
+
+TEST_F(VirtualRunTest, AnInterruptEndsItWithoutARecord) {
+  const std::atomic<bool> is_interrupted = true;
+  settings_.is_interrupted = &is_interrupted;
+  EXPECT_FALSE(run_virtual_cell(settings_, experiment_, first_cell(), key_log(first_cell())));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
