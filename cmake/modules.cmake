@@ -11,10 +11,16 @@ endif()
 add_library(rink_options INTERFACE)
 target_compile_options(rink_options INTERFACE -Wall -Wextra -Wconversion $<$<BOOL:${RINK_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# rink_module(NAME DEPENDS targets...): a static library of the calling folder's sources. Files called *_main.cpp are commands, not part of it.
+# rink_module(NAME FOLDERS folders... DEPENDS targets...): a static library of the sources in the calling folder and in these folders below it. Files called
+# *_main.cpp are commands, not part of it.
 function(rink_module name)
-  cmake_parse_arguments(module "" "" "DEPENDS;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  cmake_parse_arguments(module "" "" "FOLDERS;DEPENDS;PRIVATE" ${ARGN})
+  list(TRANSFORM module_FOLDERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE folders)
+  set(patterns)
+  foreach(folder ${CMAKE_CURRENT_SOURCE_DIR} ${folders})
+    list(APPEND patterns ${folder}/*.cpp ${folder}/*.h)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   list(FILTER sources EXCLUDE REGEX "_main\\.cpp$")
   if(NOT sources)
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_empty.cpp "")

@@ -20,6 +20,7 @@ const std::vector<Layer> layers{
     {"im", {"im"}},
     {"rti/transport", {"rti/transport", "rti", "im"}},
     {"rti", {"rti", "im"}},
+    {"game/physics/collision", {"game/physics/collision", "game/physics"}},
     {"game/physics", {"game/physics"}},
     {"game/model", {"game/model", "game/physics"}},
     {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},
