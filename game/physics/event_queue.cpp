@@ -62,11 +62,21 @@ void EventQueue::set(std::uint32_t body, double time, std::uint32_t lower, std::
 
 std::uint32_t EventQueue::earliest_in(std::uint32_t list) {
   std::uint32_t best = list;
-  for (std::uint32_t body = list; body != none; body = entries_[body].next) {
+  runner_up_ = std::numeric_limits<double>::infinity();
+  if (list == none) return none;
+  ++looked_at_;
+  for (std::uint32_t body = entries_[list].next; body != none; body = entries_[body].next) {
     ++looked_at_;
-    if (precedes(entries_[body], entries_[best])) best = body;
+    const bool is_better = precedes(entries_[body], entries_[best]);
+    runner_up_ = std::min(runner_up_, entries_[is_better ? best : body].time);
+    if (is_better) best = body;
   }
   return best;
+}
+
+bool EventQueue::is_followed_within(double window) const {
+  const double end = last_time_ + window;
+  return runner_up_ <= end || end * inverse_width_ >= static_cast<double>(current_ + 1);
 }
 
 void EventQueue::rebuild(double width) {
@@ -136,7 +146,10 @@ std::uint32_t EventQueue::first(double until) {
       last_time_ = std::max(last_time_, entries_[best].time);
       ++taken_;
       if (looked_at_ - span_looked_at_ > 16 * taken_ + 4096)
-        if (const auto wanted = mean_gap()) rebuild(*wanted);
+        if (const auto wanted = mean_gap()) {
+          rebuild(*wanted);
+          runner_up_ = last_time_;  // it may have been in another bucket
+        }
       return best;
     }
     if (static_cast<double>(current_) >= until * inverse_width_) return none;

@@ -21,6 +21,8 @@ class EventQueue {
   /// The body whose event comes first, if it comes no later than `until`, else `none`. The entry stays.
   std::uint32_t first(double until);
   double time(std::uint32_t body) const { return entries_[body].time; }
+  /// Whether another event may come within `window` [s] of the one that first() has just found. Never misses one; sometimes says yes without need.
+  bool is_followed_within(double window) const;
   /// Entries looked at one by one since the queue was made: a few per event taken, or the buckets don't fit.
   std::uint64_t looked_at() const { return looked_at_; }
 
@@ -51,6 +53,7 @@ class EventQueue {
   std::uint32_t near_count_ = 0;        // entries in buckets
   double inverse_width_ = 1e3;
   std::int64_t current_ = 0, horizon_ = 0;
+  double runner_up_ = 0.0;              // time of the second event of the list that was searched last
   // The rate at which events are taken is learnt from a span of at least so many: from one or two it comes out a thousand times too great now and then.
   static constexpr std::uint64_t span_min = 16;
   std::uint64_t taken_ = 0;             // in this span

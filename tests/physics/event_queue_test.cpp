@@ -49,5 +49,23 @@ TEST(EventQueue, IsNotMisledByManyQuestionsBetweenTwoEventsOfAPair) {
   EXPECT_LE(events.queue().looked_at() - before, 8u * 10'000u);
 }
 
+TEST(EventQueue, KnowsWhetherAnotherEventFollowsClosely) {
+  EventQueue queue;
+  queue.resize(1000);
+  std::uint64_t said_in_vain = 0;
+  // Pairs 1e-10 s apart and single events, 1 ms from one to the next.
+  const auto time = [](std::uint32_t body) { return 1e-3 * (body / 3 * 2 + (body % 3 == 2 ? 1 : 0)) + (body % 3 == 1 ? 1e-10 : 0.0); };
+  for (std::uint32_t body = 0; body < 1000; ++body) queue.set(body, time(body), body, body);
+  for (std::uint32_t body = 0; body < 1000; ++body) {
+    ASSERT_EQ(queue.first(1e9), body);
+    if (body % 3 == 0 && body < 999) {
+      ASSERT_TRUE(queue.is_followed_within(1e-9)) << body;
+    }
+    if (body % 3 != 0) said_in_vain += queue.is_followed_within(1e-9);
+    queue.set(body, std::numeric_limits<double>::infinity(), body, body);
+  }
+  EXPECT_LE(said_in_vain, 50u);
+}
+
 }  // namespace
 }  // namespace rink::physics
