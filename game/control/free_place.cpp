@@ -27,17 +27,17 @@ std::optional<Vector2> first_free(const physics::Field& field, const Vector2& sp
 
 }  // namespace
 
-std::optional<Vector2> nearest_free_disc(const physics::World& world, const Vector2& spot, double radius) {
-  return first_free(world.spec().field, spot, radius / 4, [&](const Vector2& place) { return world.is_free(place, radius); });
+std::optional<Vector2> nearest_free_disc(const physics::Simulator& simulator, const Vector2& spot, double radius) {
+  return first_free(simulator.spec().field, spot, radius / 4, [&](const Vector2& place) { return simulator.is_free(place, radius); });
 }
 
-std::optional<Vector2> nearest_free_rectangle(const physics::World& world, const Vector2& spot, const Vector2& half_extent, physics::Half half) {
-  const physics::Field& field = world.spec().field;
+std::optional<Vector2> nearest_free_rectangle(const physics::Simulator& simulator, const Vector2& spot, const Vector2& half_extent, physics::Half half) {
+  const physics::Field& field = simulator.spec().field;
   const auto is_in_half = [&](const Vector2& place) {
     if (!field.bats_keep_to_half || half == physics::Half::both) return true;
     return half == physics::Half::left ? place.x() + half_extent.x() <= field.length / 2 : place.x() - half_extent.x() >= field.length / 2;
   };
-  return first_free(field, spot, half_extent.minCoeff() / 4, [&](const Vector2& place) { return is_in_half(place) && world.is_free(place, half_extent); });
+  return first_free(field, spot, half_extent.minCoeff() / 4, [&](const Vector2& place) { return is_in_half(place) && simulator.is_free(place, half_extent); });
 }
 
 }  // namespace rink::game

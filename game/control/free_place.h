@@ -3,15 +3,15 @@
 
 #include <optional>
 
-#include "game/physics/world.h"
+#include "game/physics/simulator.h"
 
 namespace rink::game {
 
-/// The free place for a disc of `radius` [m] nearest to `spot` at the world's now(): the spot itself, or else the first free point of the square rings around it, a quarter of
-/// the radius apart. The order is fixed, so equal worlds give equal places. Nothing if the whole field is taken.
-std::optional<physics::Vector2> nearest_free_disc(const physics::World& world, const physics::Vector2& spot, double radius);
+/// The free place for a disc of `radius` [m] nearest to `spot` at the simulator's now(): the spot itself, or else the first free point of the square rings around it, a quarter of
+/// the radius apart. The order is fixed, so equal states give equal places. Nothing if the whole field is taken.
+std::optional<physics::Vector2> nearest_free_disc(const physics::Simulator& simulator, const physics::Vector2& spot, double radius);
 
 /// Likewise for a rectangle of `half_extent` [m] that must lie within `half` if the field's bats keep to their halves.
-std::optional<physics::Vector2> nearest_free_rectangle(const physics::World& world, const physics::Vector2& spot, const physics::Vector2& half_extent, physics::Half half);
+std::optional<physics::Vector2> nearest_free_rectangle(const physics::Simulator& simulator, const physics::Vector2& spot, const physics::Vector2& half_extent, physics::Half half);
 
 }  // namespace rink::game

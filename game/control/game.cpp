@@ -21,18 +21,19 @@ Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
 
 }  // namespace
 
-Game::Game(const Scene& scene) : world_(scene.world), rules_(scene.rules) {
+Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
+    : simulator_(physics::make_simulator(scene.world, engine)), world_(simulator_->exact_world()), rules_(scene.rules) {
   for (const Post& post : scene.bodies.posts) {
-    const EntityId id = world_.add(post.body);
-    entities_.push_back({.id = id, .kind = physics::BodyKind::post, .team = Team::none, .half_extent = world_.half_extent(id), .player = std::nullopt});
+    const EntityId id = simulator_->add(post.body);
+    entities_.push_back({.id = id, .kind = physics::BodyKind::post, .team = Team::none, .half_extent = simulator_->half_extent(id), .player = std::nullopt});
   }
   for (const Bat& bat : scene.bodies.bats) {
     seats_.push_back({bat, BatController(bat.thrust), std::nullopt});
     spawn_bat(player_count() - 1, bat.body.position, bat.body.velocity);
   }
   for (const Puck& puck : scene.bodies.pucks) {
-    const EntityId id = world_.add(puck.body);
-    entities_.push_back({.id = id, .kind = physics::BodyKind::puck, .team = Team::none, .half_extent = world_.half_extent(id), .player = std::nullopt});
+    const EntityId id = simulator_->add(puck.body);
+    entities_.push_back({.id = id, .kind = physics::BodyKind::puck, .team = Team::none, .half_extent = simulator_->half_extent(id), .player = std::nullopt});
   }
   spawned_.clear();
   for (const InputEvent& event : scene.keys) submit(event);
@@ -43,7 +44,7 @@ void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector
   physics::BatSpec body = seat.bat.body;
   body.position = position;
   body.velocity = velocity;
-  seat.entity = world_.add(body);
+  seat.entity = simulator_->add(body);
   entities_.push_back({.id = *seat.entity, .kind = physics::BodyKind::bat, .team = seat.bat.team, .half_extent = body.half_extent, .player = player});
   spawned_.push_back(entities_.back());
 }
@@ -59,7 +60,7 @@ void Game::advance(double until) {
   spawned_.clear();
   removed_.clear();
   scored_.clear();
-  world_.forget_impacts();
+  simulator_->forget_impacts();
   do {
     play_until(next_instant(until));
     face_off_until(now());
@@ -76,7 +77,7 @@ double Game::next_instant(double until) const {
 
 /// A goal may bring the next instant forward, for its face-off is one.
 void Game::play_until(double until) {
-  while (const std::optional<physics::Goal> goal = world_.advance(until)) {
+  while (const std::optional<physics::Goal> goal = simulator_->advance(until)) {
     count_goal(*goal);
     until = next_instant(until);
   }
@@ -107,10 +108,10 @@ void Game::face_off_until(double instant) {
 }
 
 void Game::face_off(const FaceOff& due) {
-  const physics::Field& field = world_.spec().field;
+  const physics::Field& field = simulator_->spec().field;
   const double from_end = rules_.face_off_distance * field.length;
   const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end, field.width / 2);
-  if (const auto place = nearest_free_disc(world_, spot, world_.radius(due.puck))) world_.place(due.puck, *place, Vector2::Zero());
+  if (const auto place = nearest_free_disc(*simulator_, spot, simulator_->radius(due.puck))) simulator_->place(due.puck, *place, Vector2::Zero());
   else schedule({due.time + placement_retry, due.puck, due.conceding});
 }
 
@@ -129,13 +130,13 @@ void Game::apply(const InputEvent& event) {
   Seat& seat = seats_[event.player];
   if (!seat.entity) return;
   seat.controller.press(event.key, event.kind == InputKind::key_down);
-  world_.set_thrust(*seat.entity, seat.controller.thrust());
+  simulator_->set_thrust(*seat.entity, seat.controller.thrust());
 }
 
 void Game::enter(std::uint32_t player) {
   if (seats_[player].entity) return;
   const physics::BatSpec& home = seats_[player].bat.body;
-  if (const auto place = nearest_free_rectangle(world_, home.position, home.half_extent, home.half)) spawn_bat(player, *place, Vector2::Zero());
+  if (const auto place = nearest_free_rectangle(*simulator_, home.position, home.half_extent, home.half)) spawn_bat(player, *place, Vector2::Zero());
   else submit({.time = now() + placement_retry, .player = player, .kind = InputKind::enter});
 }
 
@@ -145,7 +146,7 @@ void Game::leave(std::uint32_t player) {
   const auto there = std::lower_bound(entities_.begin(), entities_.end(), *seat.entity, [](const Entity& a, EntityId id) { return a.id < id; });
   removed_.push_back(*there);
   entities_.erase(there);
-  world_.remove(*seat.entity);
+  simulator_->remove(*seat.entity);
   seat.entity.reset();
   seat.controller.release_all();
 }
@@ -161,7 +162,7 @@ const Entity& Game::entity(EntityId entity) const {
 
 std::uint64_t Game::hash() const {
   StateHash hash;
-  hash.add(world_.hash());
+  hash.add(simulator_->hash());
   for (const Entity& entity : entities_) hash.add(std::uint64_t{entity.id.index});
   for (const Seat& seat : seats_) hash.add(std::uint64_t{seat.controller.keys().bits()} << 32 | seat.controller.input_count());
   hash.add(std::uint64_t{score_.left} << 32 | score_.right);

@@ -1,14 +1,16 @@
 // The game: makes all entities from a scene, applies what players do at the exact instant, keeps the score, and tells observers what changed.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "game/control/bat_controller.h"
 #include "game/model/scene.h"
-#include "game/physics/world.h"
+#include "game/physics/simulator.h"
 
 namespace rink::game {
 
@@ -40,8 +42,8 @@ struct Score {
 /// `advance` is called. Of one instant's happenings, motion and goals come first, then face-offs, then inputs in order of player, each player's in order of submission.
 class Game {
  public:
-  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted.
-  explicit Game(const Scene& scene);
+  /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted. `engine` moves the bodies; there must be no objection to it (asserted).
+  explicit Game(const Scene& scene, const physics::SimulatorChoice& engine = {});
 
   /// Queues `event` for its own instant, which must be finite and not before now(); its player must have a bat in the scene (both asserted). Keys for a bat that is not there
   /// at that instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if that is taken, at the nearest free place, and tries again
@@ -54,20 +56,25 @@ class Game {
   static constexpr double placement_retry = 0.1;  ///< s
 
   /// From now on `impacts` tells of every contact; off at first, when it costs nothing.
-  void record_impacts(bool is_wanted) { world_.record_impacts(is_wanted); }
+  void record_impacts(bool is_wanted) { simulator_->record_impacts(is_wanted); }
   /// Of the last `advance`, in order of time.
-  std::span<const physics::Impact> impacts() const { return world_.impacts(); }
+  std::span<const physics::Impact> impacts() const { return simulator_->impacts(); }
 
-  double now() const { return world_.now(); }
-  const physics::World& world() const { return world_; }
+  double now() const { return simulator_->now(); }
+  const physics::Simulator& simulator() const { return *simulator_; }
+  /// The closed forms of a game on the exact engine; asserted, for no other engine has them.
+  const physics::World& world() const {
+    assert(world_ != nullptr);
+    return *world_;
+  }
   const MatchRules& rules() const { return rules_; }
 
   /// All that is there now, in order of id. A scored puck is still there, out of play, until its face-off.
   std::span<const Entity> entities() const { return entities_; }
   bool is_there(EntityId entity) const;
   const Entity& entity(EntityId entity) const;  ///< which must be there
-  Vector2 position(EntityId entity) const { return world_.position(entity); }  ///< at now() [m]
-  Vector2 velocity(EntityId entity) const { return world_.velocity(entity); }  ///< at now() [m/s]
+  Vector2 position(EntityId entity) const { return simulator_->position(entity); }  ///< at now() [m]
+  Vector2 velocity(EntityId entity) const { return simulator_->velocity(entity); }  ///< at now() [m/s]
 
   /// Bats of the scene, there or not.
   std::uint32_t player_count() const { return static_cast<std::uint32_t>(seats_.size()); }
@@ -115,7 +122,8 @@ class Game {
   void leave(std::uint32_t player);
   double next_instant(double until) const;
 
-  physics::World world_;
+  std::unique_ptr<physics::Simulator> simulator_;
+  const physics::World* world_;      ///< of the simulator, if exact
   MatchRules rules_;
   std::vector<Entity> entities_;
   std::vector<Seat> seats_;

@@ -16,7 +16,8 @@ bool is_earlier(const InputEvent& a, const InputEvent& b) { return std::tuple(a.
 
 }  // namespace
 
-Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until) : game_(scene) {
+Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until, const physics::SimulatorChoice& engine)
+    : game_(scene, engine) {
   assert(!kinds.empty());
   for (std::uint32_t number = 0; number < game_.player_count(); ++number) {
     const std::string& kind = kinds[number % kinds.size()];
@@ -53,8 +54,8 @@ void Playing::decide(Seat& seat, double instant) {
   seen_.clear();
   for (const auto& watched : seat.watched.found()) {
     const EntityId puck = watched.thing;
-    if (!game_.world().is_in_play(puck)) continue;
-    seen_.push_back({.id = puck.index, .kind = physics::BodyKind::puck, .position = game_.position(puck), .velocity = game_.velocity(puck), .half_extent = game_.world().half_extent(puck)});
+    if (!game_.simulator().is_in_play(puck)) continue;
+    seen_.push_back({.id = puck.index, .kind = physics::BodyKind::puck, .position = game_.position(puck), .velocity = game_.velocity(puck), .half_extent = game_.simulator().half_extent(puck)});
   }
   press(seat, seat.player->decide({.position = position, .velocity = game_.velocity(*bat), .pucks = seen_}, instant), instant);
 }
@@ -71,7 +72,7 @@ void Playing::locate_pucks(double instant) {
   located_.clear();
   located_s_ = instant;
   for (const Entity& entity : game_.entities())
-    if (entity.kind == physics::BodyKind::puck && game_.world().is_in_play(entity.id)) located_.push_back({entity.id, game_.position(entity.id)});
+    if (entity.kind == physics::BodyKind::puck && game_.simulator().is_in_play(entity.id)) located_.push_back({entity.id, game_.position(entity.id)});
 }
 
 void Playing::press(Seat& seat, KeysHeld wanted, double instant) {

@@ -16,8 +16,8 @@ namespace rink::game {
 class Playing {
  public:
   /// `kinds`, at least one: bat k is played by kind k modulo their number, each "random" or one of player_kinds() (asserted). `until`: how long random players are
-  /// to press keys [s].
-  Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until);
+  /// to press keys [s]. `engine`: what moves the bodies.
+  Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until, const physics::SimulatorChoice& engine = {});
 
   /// Plays up to and including `until` [s].
   void advance(double until);

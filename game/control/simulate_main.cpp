@@ -70,8 +70,8 @@ void write_states(std::ostream& stream, const game::Game& game) {
 }
 
 Json summary_of(const game::Game& game, double wall_s) {
-  const physics::Counters& counters = game.world().counters();
-  const physics::Vector2 momentum = game.world().momentum();
+  const physics::Counters counters = game.simulator().counters();
+  const physics::Vector2 momentum = game.simulator().momentum();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, game.hash());
   return {{"time", game.now()},
@@ -89,7 +89,7 @@ Json summary_of(const game::Game& game, double wall_s) {
             {"release", counters.releases},
             {"hop", counters.hops},
             {"freeze", counters.freezes}}},
-          {"kinetic_energy", game.world().kinetic_energy()},
+          {"kinetic_energy", game.simulator().kinetic_energy()},
           {"momentum_x", momentum.x()},
           {"momentum_y", momentum.y()},
           {"goals_left", game.score().left},
