@@ -12,25 +12,30 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-Engine::Engine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag) {
+template <class Real>
+BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
-  tolerance_ = 0x1p-52 * (spec.field.length + spec.field.width);
+  tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
-Motion Engine::motion(std::uint32_t body) const {
+template <class Real>
+BasicMotion<Real> BasicEngine<Real>::motion(std::uint32_t body) const {
   const Body& b = bodies_[body];
   return {b.time, {b.x, b.y}, {b.vx, b.vy}, laws_[body].acceleration, laws_[body].drag};
 }
 
-double Engine::reach_of(std::uint32_t body) const { return bodies_[body].radius + builds_[body].half_extent.maxCoeff(); }
+template <class Real>
+Real BasicEngine<Real>::reach_of(std::uint32_t body) const { return bodies_[body].radius + builds_[body].half_extent.maxCoeff(); }
 
-RoundedBox Engine::shape_of(std::uint32_t a, std::uint32_t b) const {
+template <class Real>
+BasicRoundedBox<Real> BasicEngine<Real>::shape_of(std::uint32_t a, std::uint32_t b) const {
   return {builds_[a].half_extent + builds_[b].half_extent, bodies_[a].radius + bodies_[b].radius};
 }
 
-BodyId Engine::add(BodyKind kind, const Vector2& position, const Vector2& velocity, double radius, const Vector2& half_extent, double mass, MaterialId material, Half half) {
+template <class Real>
+BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half) {
   assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
   assert(is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
@@ -51,22 +56,24 @@ BodyId Engine::add(BodyKind kind, const Vector2& position, const Vector2& veloci
     grid_capacity_ = std::max(64u, 2 * count);
     rebuild_grid();
   } else {
-    grid_.insert(body, position.x(), position.y());
+    grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
   }
   return {body};
 }
 
-void Engine::rebuild_grid() {
-  grid_.rebuild(spec_.field.length, spec_.field.width, 2.0 * reach_, static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
+template <class Real>
+void BasicEngine<Real>::rebuild_grid() {
+  grid_.rebuild(spec_.field.length, spec_.field.width, static_cast<double>(2.0 * reach_), static_cast<std::uint32_t>(bodies_.size()), spec_.cell_size);
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     if (is_gone(body)) continue;
     const Vector2 position = at(body, now_).position;
-    grid_.insert(body, position.x(), position.y());
+    grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
     require_prediction(body);
   }
 }
 
-void Engine::enter_mouth_if_inside(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::enter_mouth_if_inside(std::uint32_t body) {
   Body& b = bodies_[body];
   b.mouth = no_mouth;
   if (b.kind != BodyKind::puck || spec_.field.goal_width == 0.0) return;
@@ -74,13 +81,15 @@ void Engine::enter_mouth_if_inside(std::uint32_t body) {
   if (b.x > spec_.field.length - b.radius) b.mouth = right_mouth;
 }
 
-void Engine::require_prediction(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::require_prediction(std::uint32_t body) {
   if ((bodies_[body].flags & pending) != 0) return;
   bodies_[body].flags |= pending;
   pending_.push_back(body);
 }
 
-void Engine::remove(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::remove(std::uint32_t body) {
   Body& b = bodies_[body];
   if ((b.flags & removed) != 0) return;
   if ((b.flags & out_of_play) == 0) {
@@ -94,19 +103,21 @@ void Engine::remove(std::uint32_t body) {
   settle();
 }
 
-void Engine::place(std::uint32_t puck, const Vector2& position, const Vector2& velocity) {
+template <class Real>
+void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position, const Vector2& velocity) {
   Body& b = bodies_[puck];
   assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() && velocity.allFinite());
   assert(is_free(position, {Vector2(0.0, 0.0), b.radius}));
   b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
   enter_mouth_if_inside(puck);
-  grid_.insert(puck, b.x, b.y);
+  grid_.insert(puck, static_cast<double>(b.x), static_cast<double>(b.y));
   touch(puck);
   settle();
 }
 
-void Engine::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
+template <class Real>
+void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (builds_[bat].thrust == acceleration) return;
   if (is_gone(bat)) {
@@ -124,7 +135,8 @@ void Engine::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
   settle();
 }
 
-std::optional<Goal> Engine::advance(double until) {
+template <class Real>
+std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   assert(until >= now_ && until < infinity);
   if (2 * pending_.size() > bodies_.size()) rebuild_grid();
   for (const std::uint32_t body : pending_) {
@@ -140,7 +152,8 @@ std::optional<Goal> Engine::advance(double until) {
   return std::nullopt;
 }
 
-void Engine::process(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::process(std::uint32_t body, Real time) {
   now_ = std::max(now_, time);
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) return cross_cell(body);
@@ -158,7 +171,8 @@ void Engine::process(std::uint32_t body, double time) {
   settle();
 }
 
-void Engine::settle() {
+template <class Real>
+void BasicEngine<Real>::settle() {
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);
@@ -167,7 +181,8 @@ void Engine::settle() {
   touched_.clear();
 }
 
-void Engine::cross_cell(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::cross_cell(std::uint32_t body) {
   ++counters_.crossings;
   const Slot& slot = slots_[body];
   const int dx = slot.columns, dy = slot.rows;
@@ -185,7 +200,8 @@ void Engine::cross_cell(std::uint32_t body) {
   }
 }
 
-void Engine::score(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::score(std::uint32_t body, Real time) {
   ++counters_.goals;
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
@@ -197,5 +213,8 @@ void Engine::score(std::uint32_t body, double time) {
   queue_.set(body, infinity, body, body);
   goal_ = Goal{time, {body}, b.x < 0.5 * spec_.field.length ? End::left : End::right};
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

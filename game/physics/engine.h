@@ -31,25 +31,38 @@ constexpr Partner goal_line = field_parts + 11;
 constexpr Partner release = field_parts + 12;  ///< a rest contact ends
 }  // namespace partner
 
-class Engine {
- public:
-  explicit Engine(const WorldSpec& spec);
+/// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
+template <class Real>
+class BasicEngine {
+  using Vector2 = BasicVector2<Real>;
+  using Motion = BasicMotion<Real>;
+  using WarpedTime = BasicWarpedTime<Real>;
+  using Gap = BasicGap<Real>;
+  using RoundedBox = BasicRoundedBox<Real>;
+  using HalfPlane = BasicHalfPlane<Real>;
+  using RelativeMotion = BasicRelativeMotion<Real>;
+  using EventQueue = BasicEventQueue<Real>;
+  using Goal = BasicGoal<Real>;
+  using Impact = BasicImpact<Real>;
 
-  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, double radius, const Vector2& half_extent, double mass, MaterialId material, Half half);
+ public:
+  explicit BasicEngine(const WorldSpec& spec);
+
+  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half);
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const Vector2& acceleration);
   void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
-  std::optional<Goal> advance(double until);
+  std::optional<Goal> advance(Real until);
 
   Motion motion(std::uint32_t body) const;
   bool is_free(const Vector2& centre, const RoundedBox& shape) const;
-  double kinetic_energy() const;
+  Real kinetic_energy() const;
   Vector2 momentum() const;
-  double max_overlap() const;
+  Real max_overlap() const;
   std::uint64_t hash() const;
 
  private:
-  friend class World;
+  friend class BasicWorld<Real>;
 
   enum Flag : std::uint8_t { removed = 1, out_of_play = 2, curved = 4, held_x = 8, held_y = 16, frozen = 32, touched = 64, pending = 128 };
   static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
@@ -58,7 +71,7 @@ class Engine {
 
   /// What an impact of two pucks reads and writes: one cache line.
   struct alignas(64) Body {
-    double x, y, vx, vy, time, radius;
+    Real x, y, vx, vy, time, radius;
     std::uint32_t version;
     BodyKind kind;
     MaterialId material;
@@ -66,7 +79,7 @@ class Engine {
     std::uint8_t mouth;
   };
   struct Build {
-    double mass, inverse_mass;
+    Real mass, inverse_mass;
     Vector2 half_extent;  // of the rectangle itself: 0 for discs
     Vector2 thrust;
     Half half;
@@ -76,11 +89,11 @@ class Engine {
   };
   /// How densely impacts follow each other; part of the physical history.
   struct Rhythm {
-    double window_start = -1.0, last_hop = -1.0;
+    Real window_start = -1.0, last_hop = -1.0;
     std::uint32_t impacts = 0, hops = 0;
   };
   struct Slot {
-    double impact_time, crossing_time;
+    Real impact_time, crossing_time;
     Partner partner;
     std::uint32_t partner_version;
     std::int8_t columns, rows;
@@ -89,8 +102,8 @@ class Engine {
   struct Hold {
     Partner low, high;
     int axis;
-    double pull_time;  // when the contact force vanishes by drag
-    double force;      // of the last solution
+    Real pull_time;  // when the contact force vanishes by drag
+    Real force;      // of the last solution
   };
   struct Contact {
     std::uint32_t body;
@@ -101,8 +114,8 @@ class Engine {
   struct ClusterContact {
     std::uint32_t body, partner;
     Vector2 normal;
-    double impulse;
-    double restitution;
+    Real impulse;
+    Real restitution;
   };
   static constexpr std::uint32_t fixed_place = 0xffffffff;
 
@@ -110,28 +123,28 @@ class Engine {
   bool is_body(Partner p) const { return p < partner::field_parts; }
   bool is_fixed(Partner p) const { return !is_body(p) || builds_[p].inverse_mass == 0.0; }
   bool is_gone(std::uint32_t body) const { return (bodies_[body].flags & gone) != 0; }
-  double inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
-  Motion at(std::uint32_t body, double time) const { return motion(body).at(time); }
+  Real inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
+  Motion at(std::uint32_t body, Real time) const { return motion(body).at(time); }
   RoundedBox shape_of(std::uint32_t a, std::uint32_t b) const;
   HalfPlane plane_of(std::uint32_t body, Partner wall) const;
   Vector2 goal_edge(Partner edge) const;
-  double reach_of(std::uint32_t body) const;
+  Real reach_of(std::uint32_t body) const;
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
   void require_prediction(std::uint32_t body);
   void cross_cell(std::uint32_t body);
-  void process(std::uint32_t body, double time);
+  void process(std::uint32_t body, Real time);
   void settle();
-  void score(std::uint32_t body, double time);
+  void score(std::uint32_t body, Real time);
 
   // engine_state.cpp: rewriting last-event states
-  void rebase(std::uint32_t body, double time);
-  void rebase_companions(std::uint32_t body, double time);
+  void rebase(std::uint32_t body, Real time);
+  void rebase_companions(std::uint32_t body, Real time);
   void write_law(std::uint32_t body);
-  void set_law(std::uint32_t body, int axis, double acceleration, double drag);
-  double own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
+  void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
+  Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
   void touch(std::uint32_t body);
-  void wake(std::uint32_t body, double time);
+  void wake(std::uint32_t body, Real time);
 
   // engine_prediction.cpp
   void predict(std::uint32_t body);
@@ -143,50 +156,50 @@ class Engine {
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_release(std::uint32_t body);
   void predict_crossing(std::uint32_t body);
-  void offer(std::uint32_t body, double time, Partner partner);
+  void offer(std::uint32_t body, Real time, Partner partner);
   void enqueue(std::uint32_t body);
-  double real_time(double start, double warped) const;
+  Real real_time(Real start, Real warped) const;
 
   // engine_impact.cpp
-  Vector2 position_at(std::uint32_t body, double time) const;
-  Contact contact(std::uint32_t body, Partner partner, double time) const;
+  Vector2 position_at(std::uint32_t body, Real time) const;
+  Contact contact(std::uint32_t body, Partner partner, Real time) const;
   Vector2 velocity_of(Partner p) const;
   Vector2 acceleration_of(Partner p) const;
-  double restitution(std::uint32_t body, Partner partner) const;
-  void collide(std::uint32_t body, Partner partner, double time);
-  void collide_ordered(std::uint32_t body, Partner partner, double time);
-  void bounce(const Contact& contact, double approach, double restitution, double time);
-  void count_impact(std::uint32_t body, Partner partner, double time);
-  void note_impact(std::uint32_t body, double time);
+  Real restitution(std::uint32_t body, Partner partner) const;
+  void collide(std::uint32_t body, Partner partner, Real time);
+  void collide_ordered(std::uint32_t body, Partner partner, Real time);
+  void bounce(const Contact& contact, Real approach, Real restitution, Real time);
+  void count_impact(std::uint32_t body, Partner partner, Real time);
+  void note_impact(std::uint32_t body, Real time);
 
   // engine_rest.cpp
   bool can_rest(const Contact& contact) const;
-  void rest(const Contact& contact, double time);
-  void share(int axis, const std::vector<std::uint32_t>& members, double time);
-  void solve_forces(int axis, const std::vector<std::uint32_t>& members, double speed, bool only_push);
-  void share_part(int axis, const std::vector<std::uint32_t>& part, double time);
-  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, double terminal_speed, double drag, double time);
+  void rest(const Contact& contact, Real time);
+  void share(int axis, const std::vector<std::uint32_t>& members, Real time);
+  void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push);
+  void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
+  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time);
   bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
   bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
   std::vector<std::uint32_t> companions(std::uint32_t body, std::uint8_t axes) const;
-  void dissolve(std::uint32_t body, int axis, double time);
-  void release(std::uint32_t body, double time);
-  double slide_time(const Hold& hold) const;
+  void dissolve(std::uint32_t body, int axis, Real time);
+  void release(std::uint32_t body, Real time);
+  Real slide_time(const Hold& hold) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
 
   // engine_cluster.cpp
-  bool is_pressed_hard(std::uint32_t body, Partner partner, double approach, double time) const;
-  bool hop(const Contact& contact, double approach, double pressing, double time);
-  void gather(const Contact& contact, double speed_max, double time);
-  void add_contact(std::uint32_t place, Partner partner, double speed_max, double time);
-  std::uint32_t place_in_cluster(std::uint32_t body, double time);
-  bool freeze(double thrust_max);
-  void solve_cluster(double separation);
+  bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
+  bool hop(const Contact& contact, Real approach, Real pressing, Real time);
+  void gather(const Contact& contact, Real speed_max, Real time);
+  void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
+  std::uint32_t place_in_cluster(std::uint32_t body, Real time);
+  bool freeze(Real thrust_max);
+  void solve_cluster(Real separation);
 
   WorldSpec spec_;
-  double now_ = 0.0;
-  double tolerance_;  // rounding error of an offset [m]
-  double puck_drag_;
+  Real now_ = 0.0;
+  Real tolerance_;  // rounding error of an offset [m]
+  Real puck_drag_;
   std::vector<Body> bodies_;
   std::vector<Slot> slots_;
   std::vector<Law> laws_;
@@ -196,18 +209,19 @@ class Engine {
   std::vector<Hold> holds_;
   CellGrid grid_;
   EventQueue queue_;
-  double reach_ = 0.0;               // largest half extent of any body [m]
+  Real reach_ = 0.0;               // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
   std::uint32_t jam_count_ = 0;
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> cluster_;
   std::vector<ClusterContact> cluster_contacts_;
   std::vector<Vector2> cluster_velocities_;
-  std::vector<double> accelerations_;
+  std::vector<Real> accelerations_;
   std::optional<Goal> goal_;
   Counters counters_;
   bool records_impacts_ = false;
   std::vector<Impact> impacts_;
 };
+using Engine = BasicEngine<double>;
 
 }  // namespace rink::physics

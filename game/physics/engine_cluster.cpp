@@ -12,7 +12,8 @@ constexpr std::size_t cluster_max = 256;
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
-bool Engine::is_pressed_hard(std::uint32_t body, Partner p, double approach, double time) const {
+template <class Real>
+bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real approach, Real time) const {
   const auto is_worn = [&](std::uint32_t b) {
     const Rhythm& rhythm = rhythms_[b];
     if (rhythm.impacts >= impacts_max) return true;
@@ -24,12 +25,13 @@ bool Engine::is_pressed_hard(std::uint32_t body, Partner p, double approach, dou
 /// Gives the cluster around `c` the nearest velocities (in the metric of the masses) that part all its contacts by a little: half of what its thrust, or the difference
 /// in drag that closes `c` by `pressing`, builds up within `contact_time`. False, with nothing done to velocities, if an ordinary impact serves: nothing presses, and
 /// nothing is lost or the contact is alone.
-bool Engine::hop(const Contact& c, double approach, double pressing, double time) {
-  gather(c, std::max(rest_speed, 2.0 * approach), time);
-  double thrust_max = 0.0, given_back = 1.0;
+template <class Real>
+bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real time) {
+  gather(c, std::max<Real>(rest_speed, 2.0 * approach), time);
+  Real thrust_max = 0.0, given_back = 1.0;
   for (const std::uint32_t body : cluster_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
   for (const ClusterContact& contact : cluster_contacts_) given_back = std::min(given_back, contact.restitution);
-  const double pressure = std::max(thrust_max, pressing);
+  const Real pressure = std::max(thrust_max, pressing);
   if (cluster_contacts_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed)) return false;
   if (pressure <= 0.0 && given_back == 1.0) return false;
   ++counters_.hops;
@@ -44,10 +46,10 @@ bool Engine::hop(const Contact& c, double approach, double pressing, double time
   if (may_freeze && freeze(thrust_max)) return true;
   cluster_velocities_.clear();
   for (const std::uint32_t body : cluster_) cluster_velocities_.push_back(velocity_of(body));
-  double speed = 0.0;
+  Real speed = 0.0;
   for (const Vector2& velocity : cluster_velocities_) speed = std::max(speed, velocity.norm());
   if (thrust_max == 0.0 && speed < creep_speed) std::fill(cluster_velocities_.begin(), cluster_velocities_.end(), Vector2(0.0, 0.0));
-  else solve_cluster(std::max(std::clamp(0.5 * pressure * contact_time, 0.0, 0.5 * rest_speed), 1e-12 * speed));
+  else solve_cluster(std::max(std::clamp<Real>(0.5 * pressure * contact_time, 0.0, 0.5 * rest_speed), 1e-12 * fineness<Real> * speed));
   for (std::size_t place = 0; place < cluster_.size(); ++place) {
     bodies_[cluster_[place]].vx = cluster_velocities_[place].x();
     bodies_[cluster_[place]].vy = cluster_velocities_[place].y();
@@ -55,7 +57,8 @@ bool Engine::hop(const Contact& c, double approach, double pressing, double time
   return true;
 }
 
-std::uint32_t Engine::place_in_cluster(std::uint32_t body, double time) {
+template <class Real>
+std::uint32_t BasicEngine<Real>::place_in_cluster(std::uint32_t body, Real time) {
   const auto found = std::find(cluster_.begin(), cluster_.end(), body);
   if (found != cluster_.end()) return static_cast<std::uint32_t>(found - cluster_.begin());
   wake(body, time);
@@ -65,7 +68,8 @@ std::uint32_t Engine::place_in_cluster(std::uint32_t body, double time) {
   return static_cast<std::uint32_t>(cluster_.size() - 1);
 }
 
-void Engine::add_contact(std::uint32_t place, Partner p, double speed_max, double time) {
+template <class Real>
+void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
   const std::uint32_t body = cluster_[place];
   const Contact c = contact(body, p, time);
   if (c.gap.distance > cluster_gap) return;
@@ -82,7 +86,8 @@ void Engine::add_contact(std::uint32_t place, Partner p, double speed_max, doubl
 }
 
 /// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster than `speed_max`, in an order that depends on ids alone.
-void Engine::gather(const Contact& c, double speed_max, double time) {
+template <class Real>
+void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
   cluster_.clear();
   cluster_contacts_.clear();
   place_in_cluster(c.body, time);
@@ -106,19 +111,20 @@ void Engine::gather(const Contact& c, double speed_max, double time) {
 }
 
 /// Projects `cluster_velocities_` onto those that open every contact by at least `separation`: Gauss-Seidel on impulses, least change in the metric of the masses.
-void Engine::solve_cluster(double separation) {
+template <class Real>
+void BasicEngine<Real>::solve_cluster(Real separation) {
   const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[cluster_[place]].inverse_mass; };
-  double scale = separation;
+  Real scale = separation;
   for (const Vector2& velocity : cluster_velocities_) scale = std::max(scale, velocity.norm());
-  const double accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * scale;
+  const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * scale;
   for (ClusterContact& c : cluster_contacts_) c.impulse = 0.0;
   for (int sweep = 0; sweep < 500; ++sweep) {
-    double change = 0.0;
+    Real change = 0.0;
     for (ClusterContact& c : cluster_contacts_) {
-      const double own = yielding(c.body), other = yielding(c.partner);
+      const Real own = yielding(c.body), other = yielding(c.partner);
       const Vector2 there = c.partner == fixed_place ? Vector2(0.0, 0.0) : cluster_velocities_[c.partner];
-      const double lacking = separation - c.normal.dot(cluster_velocities_[c.body] - there);
-      const double impulse = std::max(0.0, c.impulse + lacking / (own + other)), step = impulse - c.impulse;
+      const Real lacking = separation - c.normal.dot(cluster_velocities_[c.body] - there);
+      const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)), step = impulse - c.impulse;
       c.impulse = impulse;
       cluster_velocities_[c.body] += step * own * c.normal;
       if (c.partner != fixed_place) cluster_velocities_[c.partner] -= step * other * c.normal;
@@ -129,7 +135,8 @@ void Engine::solve_cluster(double separation) {
 }
 
 /// Brings a slow cluster whose contacts can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
-bool Engine::freeze(double thrust_max) {
+template <class Real>
+bool BasicEngine<Real>::freeze(Real thrust_max) {
   cluster_velocities_.clear();
   for (const std::uint32_t body : cluster_) {
     if (velocity_of(body).norm() > rest_speed) return false;
@@ -150,5 +157,8 @@ bool Engine::freeze(double thrust_max) {
   }
   return true;
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

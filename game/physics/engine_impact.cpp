@@ -10,50 +10,58 @@ namespace {
 /// Pressed contact has at least this closing acceleration [m/s^2]; below it a contact counts as unpressed.
 constexpr double press_min = 1e-7;
 /// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
-constexpr double separation_min = 1e-14;
+template <class Real>
+constexpr Real separation_min = 1e-14 * fineness<Real>;
 
 }  // namespace
 
-Vector2 Engine::position_at(std::uint32_t body, double time) const {
+template <class Real>
+BasicVector2<Real> BasicEngine<Real>::position_at(std::uint32_t body, Real time) const {
   const Body& b = bodies_[body];
   return b.time >= time || b.kind == BodyKind::post ? Vector2(b.x, b.y) : at(body, time).position;
 }
 
-Engine::Contact Engine::contact(std::uint32_t body, Partner p, double time) const {
+template <class Real>
+auto BasicEngine<Real>::contact(std::uint32_t body, Partner p, Real time) const -> Contact {
   const Vector2 position = position_at(body, time);
   if (is_body(p)) return {body, p, shape_of(body, p).gap(position - position_at(p, time))};
   if (p >= partner::edge_left_low && p <= partner::edge_right_high) return {body, p, RoundedBox{{0.0, 0.0}, bodies_[body].radius}.gap(position - goal_edge(p))};
   return {body, p, plane_of(body, p).gap(position)};
 }
 
-Vector2 Engine::velocity_of(Partner p) const { return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0); }
+template <class Real>
+BasicVector2<Real> BasicEngine<Real>::velocity_of(Partner p) const { return is_body(p) ? Vector2(bodies_[p].vx, bodies_[p].vy) : Vector2(0.0, 0.0); }
 
-Vector2 Engine::acceleration_of(Partner p) const {
+template <class Real>
+BasicVector2<Real> BasicEngine<Real>::acceleration_of(Partner p) const {
   if (is_fixed(p)) return {0.0, 0.0};
   return laws_[p].acceleration - laws_[p].drag.cwiseProduct(velocity_of(p));
 }
 
-double Engine::restitution(std::uint32_t body, Partner p) const {
+template <class Real>
+Real BasicEngine<Real>::restitution(std::uint32_t body, Partner p) const {
   return spec_.restitution(bodies_[body].material, is_body(p) ? bodies_[p].material : spec_.field.wall);
 }
 
-void Engine::collide(std::uint32_t body, Partner p, double time) {
+template <class Real>
+void BasicEngine<Real>::collide(std::uint32_t body, Partner p, Real time) {
   const std::uint32_t first = is_body(p) ? std::min(body, p) : body;
   if (is_body(p)) p = std::max(body, p);
   if (is_body(p) && builds_[first].inverse_mass == 0.0) return collide_ordered(p, first, time);
   collide_ordered(first, p, time);
 }
 
-void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
+template <class Real>
+void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time) {
   count_impact(body, p, time);
   wake(body, time);
   rebase_companions(body, time);
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
   const Vector2& normal = c.gap.normal;
-  const double approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
+  const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
   if (approach < rest_speed || given_back < 1.0) {
-    const double pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
+    const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
     if (approach < rest_speed && pressing > press_min && can_rest(c)) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
@@ -63,16 +71,17 @@ void Engine::collide_ordered(std::uint32_t body, Partner p, double time) {
 }
 
 /// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding) still leaves with the least separation, or it would be found again.
-void Engine::bounce(const Contact& c, double approach, double given_back, double time) {
+template <class Real>
+void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
     if (c.gap.normal[axis] == 0.0) continue;
     dissolve(c.body, axis, time);
     if (is_body(c.partner)) dissolve(c.partner, axis, time);
   }
   const Vector2 here = velocity_of(c.body), there = velocity_of(c.partner);
-  const double separation = std::max(given_back * approach, separation_min * (here.norm() + there.norm()));
-  const double own = inverse_mass(c.body), other = inverse_mass(c.partner);
-  const double impulse = std::max(0.0, approach + separation) / (own + other);
+  const Real separation = std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()));
+  const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
+  const Real impulse = std::max<Real>(0.0, approach + separation) / (own + other);
   Body& b = bodies_[c.body];
   b.vx = here.x() + impulse * own * c.gap.normal.x();
   b.vy = here.y() + impulse * own * c.gap.normal.y();
@@ -82,7 +91,8 @@ void Engine::bounce(const Contact& c, double approach, double given_back, double
   p.vy = there.y() - impulse * other * c.gap.normal.y();
 }
 
-void Engine::count_impact(std::uint32_t body, Partner p, double time) {
+template <class Real>
+void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
   if (records_impacts_) impacts_.push_back({time, BodyId{body}, is_body(p) ? std::optional(BodyId{p}) : std::nullopt});
   const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind); };
   if (!is_body(p)) ++(p >= partner::edge_left_low ? counters_.post_impacts : counters_.wall_impacts);
@@ -92,7 +102,8 @@ void Engine::count_impact(std::uint32_t body, Partner p, double time) {
   else ++counters_.disc_impacts;
 }
 
-void Engine::note_impact(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::note_impact(std::uint32_t body, Real time) {
   Rhythm& rhythm = rhythms_[body];
   if (time - rhythm.window_start > contact_time) {
     rhythm.window_start = time;
@@ -100,5 +111,8 @@ void Engine::note_impact(std::uint32_t body, double time) {
   }
   ++rhythm.impacts;
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

@@ -10,7 +10,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
-void Engine::offer(std::uint32_t body, double time, Partner p) {
+template <class Real>
+void BasicEngine<Real>::offer(std::uint32_t body, Real time, Partner p) {
   Slot& slot = slots_[body];
   if (time > slot.impact_time) return;
   if (time == slot.impact_time && std::minmax(body, p) >= std::minmax(body, slot.partner)) return;
@@ -19,13 +20,15 @@ void Engine::offer(std::uint32_t body, double time, Partner p) {
   slot.partner_version = is_body(p) ? bodies_[p].version : 0;
 }
 
-void Engine::enqueue(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::enqueue(std::uint32_t body) {
   const Slot& slot = slots_[body];
   if (slot.crossing_time < slot.impact_time) queue_.set(body, slot.crossing_time, body, body);
   else queue_.set(body, slot.impact_time, std::min(body, slot.partner), std::max(body, slot.partner));
 }
 
-void Engine::predict(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict(std::uint32_t body) {
   if (bodies_[body].kind == BodyKind::post) return;
   slots_[body].impact_time = infinity;
   slots_[body].partner = partner::none;
@@ -38,7 +41,8 @@ void Engine::predict(std::uint32_t body) {
   enqueue(body);
 }
 
-void Engine::predict_field(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
   if ((b.flags & held) != 0) predict_release(body);
   if ((b.flags & curved) != 0) predict_curved_walls(body);
@@ -47,29 +51,32 @@ void Engine::predict_field(std::uint32_t body) {
 }
 
 /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite if it never does.
-double Engine::real_time(double start, double warped) const {
+template <class Real>
+Real BasicEngine<Real>::real_time(Real start, Real warped) const {
   if (puck_drag_ == 0.0) return start + warped;
-  const double lost = puck_drag_ * warped;
+  const Real lost = puck_drag_ * warped;
   return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
 }
 
-void Engine::predict_straight_walls(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_straight_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Field& field = spec_.field;
   if (b.vy != 0.0) {
-    const double gap = b.vy < 0.0 ? b.y - b.radius : field.width - b.radius - b.y;
-    offer(body, real_time(b.time, std::max(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
+    const Real gap = b.vy < 0.0 ? b.y - b.radius : field.width - b.radius - b.y;
+    offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
   }
   if (b.vx == 0.0 || b.mouth != no_mouth) return;
-  const double gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
-  const double warped = std::max(0.0, gap) / std::abs(b.vx);
-  const double y = b.y + b.vy * warped;
+  const Real gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
+  const Real warped = std::max<Real>(0.0, gap) / std::abs(b.vx);
+  const Real y = b.y + b.vy * warped;
   const bool is_open = std::abs(y - 0.5 * field.width) < 0.5 * field.goal_width;
   offer(body, real_time(b.time, warped), is_open ? partner::mouth_in : b.vx < 0.0 ? partner::wall_left : partner::wall_right);
 }
 
 /// The half-plane of a wall, the halfway line or a goal line, grown by the body: its centre must stay on the side of the normal.
-HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
+template <class Real>
+BasicHalfPlane<Real> BasicEngine<Real>::plane_of(std::uint32_t body, Partner wall) const {
   const Field& field = spec_.field;
   const Vector2 extent = builds_[body].half_extent + Vector2::Constant(bodies_[body].radius);
   switch (wall) {
@@ -83,7 +90,8 @@ HalfPlane Engine::plane_of(std::uint32_t body, Partner wall) const {
   return {{1.0, 0.0}, extent.x() + 0.5 * field.length};
 }
 
-void Engine::predict_curved_walls(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Motion still, moving = motion(body);
   const RelativeMotion relative{still, moving};
@@ -102,15 +110,17 @@ void Engine::predict_curved_walls(std::uint32_t body) {
   if (spec_.field.bats_keep_to_half && b.kind == BodyKind::bat && builds_[body].half != Half::both) predict_plane(partner::halfway);
 }
 
-Vector2 Engine::goal_edge(Partner edge) const {
+template <class Real>
+BasicVector2<Real> BasicEngine<Real>::goal_edge(Partner edge) const {
   const Field& field = spec_.field;
   const bool is_left = edge == partner::edge_left_low || edge == partner::edge_left_high;
   const bool is_low = edge == partner::edge_left_low || edge == partner::edge_right_low;
-  return {is_left ? 0.0 : field.length, 0.5 * (field.width + (is_low ? -field.goal_width : field.goal_width))};
+  return {is_left ? 0.0 : field.length, 0.5 * (Real(field.width) + (is_low ? -field.goal_width : field.goal_width))};
 }
 
 /// Between the edges of a goal: the two edges, the goal line, and the way out.
-void Engine::predict_mouth(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
   const Body& b = bodies_[body];
   const bool is_left = b.mouth == left_mouth;
   const Motion moving = motion(body);
@@ -119,7 +129,7 @@ void Engine::predict_mouth(std::uint32_t body) {
     const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time, slots_[body].impact_time, tolerance_);
     if (time) offer(body, *time, p);
   };
-  const double end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
+  const Real end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
   meet(HalfPlane{{inwards, 0.0}, inwards * end}, partner::goal_line);
   meet(HalfPlane{{-inwards, 0.0}, -inwards * (end + inwards * b.radius)}, partner::mouth_out);
   for (const Partner edge : {is_left ? partner::edge_left_low : partner::edge_right_low, is_left ? partner::edge_left_high : partner::edge_right_high}) {
@@ -129,14 +139,15 @@ void Engine::predict_mouth(std::uint32_t body) {
 }
 
 /// Both positions are taken at the later of the two last events, so that the result depends on nothing but the two states.
-void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
+template <class Real>
+void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
   ++counters_.predictions;
   const Body &a = bodies_[body], &b = bodies_[other];
   if (((a.flags | b.flags) & curved) != 0) return predict_curved_pair(body, other);
   Vector2 offset(b.x - a.x, b.y - a.y), velocity;
-  const double time = std::max(a.time, b.time);
+  const Real time = std::max(a.time, b.time);
   if (puck_drag_ == 0.0) {
-    const double ahead_a = time - a.time, ahead_b = time - b.time;
+    const Real ahead_a = time - a.time, ahead_b = time - b.time;
     offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
     velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
   } else {
@@ -145,36 +156,39 @@ void Engine::predict_pair(std::uint32_t body, std::uint32_t other) {
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
   // Warped time never runs ahead of real time, so the best event so far limits it as well; the slack keeps those that rounding makes simultaneous.
-  const double limit = slots_[body].impact_time * (1.0 + 4e-15) - time;
+  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>) - time;
   if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit)) offer(body, real_time(time, *wait), other);
 }
 
-void Engine::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
+template <class Real>
+void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if ((bodies_[body].flags & bodies_[other].flags & frozen) != 0) return;
   if ((bodies_[body].flags & held) != 0 && are_held(body, other)) return;
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = motion(low), b = motion(high);
-  const double start = std::max(a.time, b.time);
+  const Real start = std::max(a.time, b.time);
   const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, slots_[body].impact_time, tolerance_);
   if (time) offer(body, *time, other);
 }
 
-void Engine::predict_release(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_release(std::uint32_t body) {
   for (const Hold& hold : holds_)
     if (hold.low == body || hold.high == body) offer(body, std::min(hold.pull_time, slide_time(hold)), partner::release);
 }
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.
-void Engine::predict_crossing(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::predict_crossing(std::uint32_t body) {
   const Body& b = bodies_[body];
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
   slot.columns = slot.rows = 0;
   const std::uint32_t column = grid_.column_of(body), row = grid_.row_of(body);
   if ((b.flags & curved) == 0) {
-    const double x = b.vx == 0.0 ? infinity : ((b.vx < 0.0 ? grid_.low(column) : grid_.high(column, true)) - b.x) / b.vx;
-    const double y = b.vy == 0.0 ? infinity : ((b.vy < 0.0 ? grid_.low(row) : grid_.high(row, false)) - b.y) / b.vy;
-    const double warped = std::min(x, y);
+    const Real x = b.vx == 0.0 ? infinity : ((b.vx < 0.0 ? grid_.low(column) : grid_.high(column, true)) - b.x) / b.vx;
+    const Real y = b.vy == 0.0 ? infinity : ((b.vy < 0.0 ? grid_.low(row) : grid_.high(row, false)) - b.y) / b.vy;
+    const Real warped = std::min(x, y);
     if (warped == infinity) return;
     slot.crossing_time = real_time(b.time, warped);
     if (x <= y) slot.columns = b.vx < 0.0 ? -1 : 1;
@@ -182,10 +196,10 @@ void Engine::predict_crossing(std::uint32_t body) {
     return;
   }
   const Motion still, moving = motion(body);
-  const double start = std::max(b.time, now_);
-  const auto leave = [&](double edge, Vector2 normal, int columns, int rows) {
+  const Real start = std::max(b.time, now_);
+  const auto leave = [&](Real edge, Vector2 normal, int columns, int rows) {
     if (std::abs(edge) == infinity) return;
-    const double limit = std::min(slot.impact_time, slot.crossing_time);
+    const Real limit = std::min(slot.impact_time, slot.crossing_time);
     const auto time = first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start, limit, tolerance_);
     if (!time || *time >= slot.crossing_time) return;
     slot.crossing_time = *time;
@@ -197,5 +211,8 @@ void Engine::predict_crossing(std::uint32_t body) {
   leave(grid_.low(row), {0.0, 1.0}, 0, -1);
   leave(grid_.high(row, false), {0.0, -1.0}, 0, 1);
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

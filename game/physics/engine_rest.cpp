@@ -16,12 +16,14 @@ constexpr double pull_min = 1e-9;
 
 }  // namespace
 
-bool Engine::are_held(std::uint32_t a, std::uint32_t b) const {
+template <class Real>
+bool BasicEngine<Real>::are_held(std::uint32_t a, std::uint32_t b) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) { return (hold.low == a && hold.high == b) || (hold.low == b && hold.high == a); });
 }
 
 /// The bodies in rest contact with `body`, directly or through others, along any of `axes`; itself first. Fixed partners are not among them.
-std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t axes) const {
+template <class Real>
+std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body, std::uint8_t axes) const {
   std::vector<std::uint32_t> found{body};
   const auto include = [&](Partner p) {
     if (!is_fixed(p) && std::find(found.begin(), found.end(), p) == found.end()) found.push_back(p);
@@ -35,20 +37,22 @@ std::vector<std::uint32_t> Engine::companions(std::uint32_t body, std::uint8_t a
   return found;
 }
 
-bool Engine::can_rest(const Contact& c) const {
+template <class Real>
+bool BasicEngine<Real>::can_rest(const Contact& c) const {
   if (c.gap.face < 0) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
-  const double extent = shape_of(c.body, c.partner).half_extent[along];
+  const Real extent = shape_of(c.body, c.partner).half_extent[along];
   const Motion here = motion(c.body), there = motion(c.partner);
-  const double offset = here.position[along] - there.position[along], speed = here.velocity[along] - there.velocity[along];
+  const Real offset = here.position[along] - there.position[along], speed = here.velocity[along] - there.velocity[along];
   // Two discs have no face: in line they rest on each other only while nothing moves them sideways.
   if (extent == 0.0) return speed == 0.0 && acceleration_of(c.body)[along] == acceleration_of(c.partner)[along];
   return std::abs(offset) < extent - face_margin || (std::abs(offset) <= extent && offset * speed < 0.0);
 }
 
 /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
-void Engine::rest(const Contact& c, double time) {
+template <class Real>
+void BasicEngine<Real>::rest(const Contact& c, Real time) {
   ++counters_.rests;
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
@@ -56,32 +60,35 @@ void Engine::rest(const Contact& c, double time) {
   for (const Partner p : {c.body, c.partner})
     if (!is_fixed(p)) bodies_[p].flags |= held_along(axis);
   const std::vector<std::uint32_t> members = companions(c.body, held_along(axis));
-  double mass = 0.0, momentum = 0.0;
+  Real mass = 0.0, momentum = 0.0;
   for (const std::uint32_t member : members) {
     rebase_companions(member, time);
     mass += builds_[member].mass;
     momentum += builds_[member].mass * velocity_of(member)[axis];
   }
-  const double speed = is_group_fixed(axis, members) ? 0.0 : momentum / mass;
+  const Real speed = is_group_fixed(axis, members) ? 0.0 : momentum / mass;
   for (const std::uint32_t member : members) (axis == 0 ? bodies_[member].vx : bodies_[member].vy) = speed;
   share(axis, members, time);
 }
 
-bool Engine::is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const {
+template <class Real>
+bool BasicEngine<Real>::is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const {
   if (hold.axis != axis) return false;
   const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
   return std::find(members.begin(), members.end(), inside) != members.end();
 }
 
-bool Engine::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
+template <class Real>
+bool BasicEngine<Real>::is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const {
   return std::any_of(holds_.begin(), holds_.end(), [&](const Hold& hold) { return is_in_group(hold, axis, members) && (is_fixed(hold.low) || is_fixed(hold.high)); });
 }
 
 /// The accelerations of `members` at common speed `speed` along `axis`, and the force in every hold: Gauss-Seidel on the forces, which push only if `only_push`.
 /// Groups are small (a bat and the pucks before it), and the sweep order is the order of the holds, so the bits are reproducible.
-void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, double speed, bool only_push) {
+template <class Real>
+void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push) {
   accelerations_.resize(bodies_.size());
-  double scale = 1.0;
+  Real scale = 1.0;
   for (const std::uint32_t member : members) {
     accelerations_[member] = builds_[member].thrust[axis] - own_drag(member) * speed;
     scale = std::max(scale, std::abs(accelerations_[member]));
@@ -89,30 +96,31 @@ void Engine::solve_forces(int axis, const std::vector<std::uint32_t>& members, d
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, members)) hold.force = 0.0;
   for (int sweep = 0; sweep < 2000; ++sweep) {
-    double change = 0.0;
+    Real change = 0.0;
     for (Hold& hold : holds_) {
       if (!is_in_group(hold, axis, members)) continue;
-      const double low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
-      const double yielding = inverse_mass(hold.low) + inverse_mass(hold.high);
-      double force = hold.force + (low - high) / yielding;
-      if (only_push) force = std::max(0.0, force);
-      const double step = force - hold.force;
+      const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+      const Real yielding = inverse_mass(hold.low) + inverse_mass(hold.high);
+      Real force = hold.force + (low - high) / yielding;
+      if (only_push) force = std::max<Real>(0.0, force);
+      const Real step = force - hold.force;
       hold.force = force;
       if (!is_fixed(hold.low)) accelerations_[hold.low] -= step * inverse_mass(hold.low);
       if (!is_fixed(hold.high)) accelerations_[hold.high] += step * inverse_mass(hold.high);
       change = std::max(change, std::abs(step) * yielding);
     }
-    if (change <= 1e-13 * scale) break;
+    if (change <= 1e-13 * fineness<Real> * scale) break;
   }
 }
 
 /// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and one drag, bitwise equal for all its members.
-void Engine::share(int axis, const std::vector<std::uint32_t>& members, double time) {
-  const double speed = velocity_of(members.front())[axis];
+template <class Real>
+void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
+  const Real speed = velocity_of(members.front())[axis];
   solve_forces(axis, members, speed, true);
   const auto is_pulled = [&](const Hold& hold) {
     if (!is_in_group(hold, axis, members) || hold.force > 0.0) return false;
-    const double low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
+    const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
     return high - low > pull_min;
   };
   counters_.releases += std::erase_if(holds_, is_pulled);
@@ -125,10 +133,11 @@ void Engine::share(int axis, const std::vector<std::uint32_t>& members, double t
   }
 }
 
-void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, double time) {
+template <class Real>
+void BasicEngine<Real>::share_part(int axis, const std::vector<std::uint32_t>& part, Real time) {
   const bool is_fixed_part = is_group_fixed(axis, part);
   const bool is_alone = part.size() == 1 && !is_fixed_part;
-  double mass = 0.0, thrust = 0.0, drag = 0.0;
+  Real mass = 0.0, thrust = 0.0, drag = 0.0;
   for (const std::uint32_t member : part) {
     mass += builds_[member].mass;
     thrust += builds_[member].mass * builds_[member].thrust[axis];
@@ -145,28 +154,30 @@ void Engine::share_part(int axis, const std::vector<std::uint32_t>& part, double
 }
 
 /// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`: one that would be negative there vanishes on the way.
-void Engine::set_pull_times(int axis, const std::vector<std::uint32_t>& part, double terminal_speed, double drag, double time) {
+template <class Real>
+void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time) {
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, part)) hold.pull_time = infinity;
   if (drag == 0.0) return;
-  const double speed = velocity_of(part.front())[axis];
+  const Real speed = velocity_of(part.front())[axis];
   solve_forces(axis, part, speed, false);
-  std::vector<double> forces;
+  std::vector<Real> forces;
   for (const Hold& hold : holds_)
-    if (is_in_group(hold, axis, part)) forces.push_back(std::max(0.0, hold.force));
+    if (is_in_group(hold, axis, part)) forces.push_back(std::max<Real>(0.0, hold.force));
   solve_forces(axis, part, terminal_speed, false);
   std::size_t i = 0;
   for (Hold& hold : holds_) {
     if (!is_in_group(hold, axis, part)) continue;
-    const double now = forces[i++], finally = hold.force;
-    double scale = 0.0;
+    const Real now = forces[i++], finally = hold.force;
+    Real scale = 0.0;
     for (const std::uint32_t member : part) scale += builds_[member].mass * (std::abs(builds_[member].thrust[axis]) + own_drag(member) * std::abs(speed));
     if (finally < -1e-12 * scale) hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
   }
 }
 
 /// Ends every rest contact of the group of `body` along `axis`; each member goes on with the common velocity and its own thrust and drag.
-void Engine::dissolve(std::uint32_t body, int axis, double time) {
+template <class Real>
+void BasicEngine<Real>::dissolve(std::uint32_t body, int axis, Real time) {
   if ((bodies_[body].flags & held_along(axis)) == 0) return;
   const std::vector<std::uint32_t> members = companions(body, held_along(axis));
   for (const std::uint32_t member : members) rebase_companions(member, time);
@@ -175,18 +186,19 @@ void Engine::dissolve(std::uint32_t body, int axis, double time) {
 }
 
 /// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two last-event states, like any event.
-double Engine::slide_time(const Hold& hold) const {
+template <class Real>
+Real BasicEngine<Real>::slide_time(const Hold& hold) const {
   if (!is_body(hold.low) || !is_body(hold.high)) return infinity;
   const int along = 1 - hold.axis;
-  const double extent = shape_of(hold.low, hold.high).half_extent[along];
+  const Real extent = shape_of(hold.low, hold.high).half_extent[along];
   const Motion low = motion(hold.low), high = motion(hold.high);
-  const double start = std::max(low.time, high.time);
+  const Real start = std::max(low.time, high.time);
   if (extent == 0.0) {
     const bool is_still = velocity_of(hold.low)[along] == velocity_of(hold.high)[along] && acceleration_of(hold.low)[along] == acceleration_of(hold.high)[along];
     return is_still ? infinity : start;
   }
-  double earliest = infinity;
-  for (const double side : {-1.0, 1.0}) {
+  Real earliest = infinity;
+  for (const Real side : {-1.0, 1.0}) {
     Vector2 normal(0.0, 0.0);
     normal[along] = side;
     const auto time = first_contact(RelativeMotion{low, high}, HalfPlane{normal, -extent}, start, earliest, tolerance_);
@@ -196,7 +208,8 @@ double Engine::slide_time(const Hold& hold) const {
 }
 
 /// The rest contacts of `body` that end at `time` do so.
-void Engine::release(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold hold = holds_[i];
     if ((hold.low != body && hold.high != body) || std::min(hold.pull_time, slide_time(hold)) > time) continue;
@@ -208,5 +221,8 @@ void Engine::release(std::uint32_t body, double time) {
     return share(hold.axis, members, time);
   }
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

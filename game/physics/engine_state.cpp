@@ -3,7 +3,8 @@
 
 namespace rink::physics {
 
-void Engine::touch(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::touch(std::uint32_t body) {
   Body& b = bodies_[body];
   if ((b.flags & touched) != 0) return;
   b.flags |= touched;
@@ -12,12 +13,13 @@ void Engine::touch(std::uint32_t body) {
   touched_.push_back(body);
 }
 
-void Engine::rebase(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
   Body& b = bodies_[body];
   if (b.kind == BodyKind::post) return;
   if (b.time < time) {
     ++counters_.evaluations;
-    const double elapsed = time - b.time;
+    const Real elapsed = time - b.time;
     if ((b.flags & curved) != 0) {
       const Motion there = at(body, time);
       b.x = there.position.x(), b.y = there.position.y(), b.vx = there.velocity.x(), b.vy = there.velocity.y();
@@ -33,27 +35,31 @@ void Engine::rebase(std::uint32_t body, double time) {
 }
 
 /// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same instant, so they are rebased together.
-void Engine::rebase_companions(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::rebase_companions(std::uint32_t body, Real time) {
   rebase(body, time);
   if ((bodies_[body].flags & held) == 0) return;
   for (const std::uint32_t companion : companions(body, held)) rebase(companion, time);
 }
 
-void Engine::set_law(std::uint32_t body, int axis, double acceleration, double drag) {
+template <class Real>
+void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
   laws_[body].acceleration[axis] = acceleration;
   laws_[body].drag[axis] = drag;
   write_law(body);
   touch(body);
 }
 
-void Engine::write_law(std::uint32_t body) {
+template <class Real>
+void BasicEngine<Real>::write_law(std::uint32_t body) {
   Body& b = bodies_[body];
   const bool is_straight = b.kind != BodyKind::bat && laws_[body].acceleration == Vector2(0.0, 0.0) && laws_[body].drag == Vector2::Constant(puck_drag_);
   b.flags = static_cast<std::uint8_t>(is_straight ? b.flags & ~curved : b.flags | curved);
 }
 
 /// Ends the equilibrium of the jam that `body` is part of: all its members yield to their thrust again.
-void Engine::wake(std::uint32_t body, double time) {
+template <class Real>
+void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
   if ((bodies_[body].flags & frozen) == 0) return;
   const std::uint32_t jam = jams_[body];
   for (std::size_t i = 0; i < frozen_.size();) {
@@ -70,5 +76,8 @@ void Engine::wake(std::uint32_t body, double time) {
     for (int axis = 0; axis < 2; ++axis) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
   }
 }
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
 
 }  // namespace rink::physics

@@ -5,13 +5,16 @@
 #include <bit>
 #include <cmath>
 
+#include "game/physics/body.h"
+
 namespace rink::physics {
 
 namespace {
 constexpr double number_max = 4.0e18;
 }
 
-void EventQueue::resize(std::uint32_t count) {
+template <class Real>
+void BasicEventQueue<Real>::resize(std::uint32_t count) {
   entries_.resize(count);
   if (heads_.size() < count || heads_.empty()) {
     heads_.resize(std::bit_ceil(std::max<std::size_t>(2 * std::size_t{count}, 64)));
@@ -19,17 +22,20 @@ void EventQueue::resize(std::uint32_t count) {
   }
 }
 
-std::int64_t EventQueue::bucket_number(double time) const {
-  return std::max(current_, static_cast<std::int64_t>(std::min(time * inverse_width_, number_max)));
+template <class Real>
+std::int64_t BasicEventQueue<Real>::bucket_number(Real time) const {
+  return std::max(current_, static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max)));
 }
 
-bool EventQueue::precedes(const Entry& a, const Entry& b) const {
+template <class Real>
+bool BasicEventQueue<Real>::precedes(const Entry& a, const Entry& b) const {
   if (a.time != b.time) return a.time < b.time;
   if (a.lower != b.lower) return a.lower < b.lower;
   return a.higher < b.higher;
 }
 
-void EventQueue::link(std::uint32_t body) {
+template <class Real>
+void BasicEventQueue<Real>::link(std::uint32_t body) {
   Entry& entry = entries_[body];
   const std::int64_t number = bucket_number(entry.time);
   entry.bucket = number < horizon_ ? static_cast<std::uint32_t>(number & static_cast<std::int64_t>(heads_.size() - 1)) : later_bucket;
@@ -41,7 +47,8 @@ void EventQueue::link(std::uint32_t body) {
   first = body;
 }
 
-void EventQueue::unlink(std::uint32_t body) {
+template <class Real>
+void BasicEventQueue<Real>::unlink(std::uint32_t body) {
   Entry& entry = entries_[body];
   if (entry.bucket == none) return;
   near_count_ -= entry.bucket != later_bucket;
@@ -51,18 +58,20 @@ void EventQueue::unlink(std::uint32_t body) {
   entry.bucket = none;
 }
 
-void EventQueue::set(std::uint32_t body, double time, std::uint32_t lower, std::uint32_t higher) {
+template <class Real>
+void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
   unlink(body);
   Entry& entry = entries_[body];
   entry.time = time;
   entry.lower = lower;
   entry.higher = higher;
-  if (time < std::numeric_limits<double>::infinity()) link(body);
+  if (time < std::numeric_limits<Real>::infinity()) link(body);
 }
 
-std::uint32_t EventQueue::earliest_in(std::uint32_t list) {
+template <class Real>
+std::uint32_t BasicEventQueue<Real>::earliest_in(std::uint32_t list) {
   std::uint32_t best = list;
-  runner_up_ = std::numeric_limits<double>::infinity();
+  runner_up_ = std::numeric_limits<Real>::infinity();
   if (list == none) return none;
   ++looked_at_;
   for (std::uint32_t body = entries_[list].next; body != none; body = entries_[body].next) {
@@ -74,17 +83,19 @@ std::uint32_t EventQueue::earliest_in(std::uint32_t list) {
   return best;
 }
 
-bool EventQueue::is_followed_within(double window) const {
-  const double end = last_time_ + window;
-  return runner_up_ <= end || end * inverse_width_ >= static_cast<double>(current_ + 1);
+template <class Real>
+bool BasicEventQueue<Real>::is_followed_within(Real window) const {
+  const Real end = last_time_ + window;
+  return runner_up_ <= end || end * inverse_width_ >= static_cast<Real>(current_ + 1);
 }
 
-void EventQueue::rebuild(double width) {
+template <class Real>
+void BasicEventQueue<Real>::rebuild(Real width) {
   std::vector<std::uint32_t> pending;
   for (std::uint32_t body = 0; body < entries_.size(); ++body)
     if (entries_[body].bucket != none) pending.push_back(body);
   inverse_width_ = 1.0 / width;
-  current_ = static_cast<std::int64_t>(std::min(last_time_ * inverse_width_, number_max));
+  current_ = static_cast<std::int64_t>(std::min<Real>(last_time_ * inverse_width_, number_max));
   horizon_ = current_ + static_cast<std::int64_t>(heads_.size());
   std::fill(heads_.begin(), heads_.end(), none);
   later_ = none;
@@ -93,19 +104,22 @@ void EventQueue::rebuild(double width) {
   begin_span();
 }
 
-void EventQueue::begin_span() {
+template <class Real>
+void BasicEventQueue<Real>::begin_span() {
   taken_ = 0;
   span_looked_at_ = looked_at_;
   span_begin_ = last_time_;
 }
 
-std::optional<double> EventQueue::mean_gap() const {
+template <class Real>
+std::optional<Real> BasicEventQueue<Real>::mean_gap() const {
   if (taken_ < span_min || last_time_ <= span_begin_) return std::nullopt;
-  return std::max((last_time_ - span_begin_) / static_cast<double>(taken_), 1e-15 * (1.0 + last_time_));
+  return std::max((last_time_ - span_begin_) / static_cast<Real>(taken_), 1e-15 * fineness<Real> * (1.0 + last_time_));
 }
 
 /// Moves the horizon on; false if nothing is due by `until`.
-bool EventQueue::refill(double until) {
+template <class Real>
+bool BasicEventQueue<Real>::refill(Real until) {
   if (near_count_ == 0) {
     const std::uint32_t earliest = earliest_in(later_);
     if (earliest == none || entries_[earliest].time > until) return false;
@@ -113,7 +127,7 @@ bool EventQueue::refill(double until) {
     last_time_ = std::max(last_time_, entries_[earliest].time);
   }
   if (const auto wanted = mean_gap()) {
-    const double width = 1.0 / inverse_width_;
+    const Real width = 1.0 / inverse_width_;
     if (*wanted > 4.0 * width || *wanted < 0.25 * width) {
       rebuild(*wanted);
       return true;
@@ -133,7 +147,8 @@ bool EventQueue::refill(double until) {
   return true;
 }
 
-std::uint32_t EventQueue::first(double until) {
+template <class Real>
+std::uint32_t BasicEventQueue<Real>::first(Real until) {
   for (;;) {
     if (near_count_ == 0 || current_ >= horizon_) {
       if (!refill(until)) return none;
@@ -152,9 +167,12 @@ std::uint32_t EventQueue::first(double until) {
         }
       return best;
     }
-    if (static_cast<double>(current_) >= until * inverse_width_) return none;
+    if (static_cast<Real>(current_) >= until * inverse_width_) return none;
     ++current_;
   }
 }
+
+template class BasicEventQueue<double>;
+template class BasicEventQueue<long double>;
 
 }  // namespace rink::physics

@@ -76,4 +76,7 @@ double log1p_of(double x) {
   return k * ln2_high - ((half_square - (tail + (k * ln2_low + lost))) - f);
 }
 
+long double expm1_of(long double x) { return std::expm1(x); }
+long double log1p_of(long double x) { return std::log1p(x); }
+
 }  // namespace rink::physics

@@ -6,38 +6,44 @@ namespace rink::physics {
 namespace {
 
 /// (1/2 - y/6 + y^2/24 - ...), the q of unit time: for y = g t below 0.4 where (t - s)/g would lose up to all digits.
-double stretched_square(double y) {
-  double sum = 0.0;
-  for (int n = 15; n >= 2; --n) sum = (1.0 - y * sum) / n;
+template <class Real>
+Real stretched_square(Real y) {
+  constexpr int last = std::numeric_limits<Real>::digits > 53 ? 19 : 15;
+  Real sum = 0.0;
+  for (int n = last; n >= 2; --n) sum = (1.0 - y * sum) / n;
   return sum;
 }
 
 /// q of WarpedTime, given its s.
-double warped_square(double elapsed, double drag, double s) {
+template <class Real>
+Real warped_square(Real elapsed, Real drag, Real s) {
   if (drag == 0.0) return 0.5 * elapsed * elapsed;
-  const double y = drag * elapsed;
+  const Real y = drag * elapsed;
   return y < 0.4 ? elapsed * elapsed * stretched_square(y) : (elapsed - s) / drag;
 }
 
 }  // namespace
 
-WarpedTime warp_unaccelerated(double elapsed, double drag) {
+template <class Real>
+BasicWarpedTime<Real> warp_unaccelerated(Real elapsed, std::type_identity_t<Real> drag) {
   if (drag == 0.0) return {elapsed, 0.0, 1.0};
-  const double lost = expm1_of(-drag * elapsed);
+  const Real lost = expm1_of(-drag * elapsed);
   return {-lost / drag, 0.0, 1.0 + lost};
 }
 
-WarpedTime warp(double elapsed, double drag) {
-  WarpedTime warped = warp_unaccelerated(elapsed, drag);
+template <class Real>
+BasicWarpedTime<Real> warp(Real elapsed, std::type_identity_t<Real> drag) {
+  BasicWarpedTime<Real> warped = warp_unaccelerated(elapsed, drag);
   warped.q = warped_square(elapsed, drag, warped.s);
   return warped;
 }
 
-Motion Motion::at(double instant) const {
-  Motion moved = *this;
+template <class Real>
+BasicMotion<Real> BasicMotion<Real>::at(Real instant) const {
+  BasicMotion moved = *this;
   moved.time = instant;
-  const double elapsed = instant - time;
-  WarpedTime w{};
+  const Real elapsed = instant - time;
+  BasicWarpedTime<Real> w{};
   for (int axis = 0; axis < 2; ++axis) {
     if (axis == 0 || drag[axis] != drag[0]) w = warp_unaccelerated(elapsed, drag[axis]);
     if (acceleration[axis] != 0.0 && w.q == 0.0) w.q = warped_square(elapsed, drag[axis], w.s);
@@ -46,5 +52,12 @@ Motion Motion::at(double instant) const {
   }
   return moved;
 }
+
+template BasicWarpedTime<double> warp(double, double);
+template BasicWarpedTime<long double> warp(long double, long double);
+template BasicWarpedTime<double> warp_unaccelerated(double, double);
+template BasicWarpedTime<long double> warp_unaccelerated(long double, long double);
+template struct BasicMotion<double>;
+template struct BasicMotion<long double>;
 
 }  // namespace rink::physics

@@ -12,23 +12,27 @@
 
 namespace rink::physics {
 
-class Engine;
+template <class Real>
+class BasicEngine;
 
 /// `body` hit `other` at `time` [s]; `other` is nothing for a wall or the edge of a goal.
-struct Impact {
-  double time = 0.0;
+template <class Real>
+struct BasicImpact {
+  Real time = 0.0;
   BodyId body;
   std::optional<BodyId> other;
 };
+using Impact = BasicImpact<double>;
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls give the same bits, whatever the cell size and however often
 /// advance() stops on the way. Method, proofs and limits: docs/physics.md.
-class World {
+template <class Real>
+class BasicWorld {
  public:
-  explicit World(const WorldSpec& spec);
-  ~World();
-  World(World&&) noexcept;
-  World& operator=(World&&) noexcept;
+  explicit BasicWorld(const WorldSpec& spec);
+  ~BasicWorld();
+  BasicWorld(BasicWorld&&) noexcept;
+  BasicWorld& operator=(BasicWorld&&) noexcept;
 
   /// Adds a body at now(). The place must be free (asserted); ask is_free() first when in doubt.
   BodyId add(const PuckSpec& spec);
@@ -46,30 +50,30 @@ class World {
 
   /// Processes every event up to and including `until` [s] (not before now()), or up to the first goal, which it returns at the goal's exact time. Where it stops never
   /// changes the motion.
-  std::optional<Goal> advance(double until);
+  std::optional<BasicGoal<Real>> advance(Real until);
 
   /// From now on keeps a record of every impact, for observers; off at first. Never changes the motion.
   void record_impacts(bool is_wanted);
   /// Recorded since the last forget_impacts(), in order of time; valid until anything else is asked of the world.
-  std::span<const Impact> impacts() const;
+  std::span<const BasicImpact<Real>> impacts() const;
   void forget_impacts();
 
-  double now() const;                      ///< s
-  Vector2 position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
-  Vector2 velocity(BodyId body) const;     ///< at now() [m/s]
+  Real now() const;                      ///< s
+  BasicVector2<Real> position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
+  BasicVector2<Real> velocity(BodyId body) const;     ///< at now() [m/s]
 
   /// Closed form since the body's last event, valid until its next: what a distant replica needs to follow it exactly.
-  Motion motion(BodyId body) const;
+  BasicMotion<Real> motion(BodyId body) const;
   /// Grows by one or more whenever motion() changes.
   std::uint32_t motion_version(BodyId body) const;
 
   std::uint32_t body_count() const;        ///< bodies ever added; valid ids are below
   BodyKind kind(BodyId body) const;
-  double radius(BodyId body) const;        ///< of a puck or post [m]; 0 for a bat
-  Vector2 half_extent(BodyId body) const;  ///< of the body's bounding box [m]
-  double mass(BodyId body) const;          ///< kg; infinity for a post
+  Real radius(BodyId body) const;        ///< of a puck or post [m]; 0 for a bat
+  BasicVector2<Real> half_extent(BodyId body) const;  ///< of the body's bounding box [m]
+  Real mass(BodyId body) const;          ///< kg; infinity for a post
   MaterialId material(BodyId body) const;
-  Vector2 thrust(BodyId body) const;       ///< as set, whether or not the body yields to it [m/s^2]
+  BasicVector2<Real> thrust(BodyId body) const;       ///< as set, whether or not the body yields to it [m/s^2]
   bool is_in_play(BodyId body) const;      ///< false once it has scored or was removed
   bool is_removed(BodyId body) const;
   bool is_resting(BodyId body) const;      ///< at rest, and will be until something else acts on it
@@ -81,16 +85,18 @@ class World {
 
   const WorldSpec& spec() const;
   const Counters& counters() const;
-  double kinetic_energy() const;           ///< of the bodies in play at now() [J]
-  Vector2 momentum() const;                ///< likewise [kg m/s]
+  Real kinetic_energy() const;           ///< of the bodies in play at now() [J]
+  BasicVector2<Real> momentum() const;                ///< likewise [kg m/s]
   /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none overlap. Looks at every body.
-  double max_overlap() const;
+  Real max_overlap() const;
 
   /// FNV-1a of the last-event states of all bodies in order of their ids. Equal for equal histories, whatever the cell size and wherever advance() stopped.
   std::uint64_t hash() const;
 
  private:
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<BasicEngine<Real>> engine_;
 };
+using World = BasicWorld<double>;
+using ExtendedWorld = BasicWorld<long double>;
 
 }  // namespace rink::physics
