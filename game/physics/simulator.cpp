@@ -5,6 +5,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/physics/paper/naive_simulator.h"
+#include "game/physics/paper/paper_simulator.h"
+
 namespace rink::physics {
 namespace {
 
@@ -60,14 +63,11 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"exact"};
+  static const std::vector<std::string> names{"exact", "paper", "naive"};
   return names;
 }
 
-const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names{"euler", "semi_implicit", "verlet", "rk4"};
-  return names;
-}
+const std::vector<std::string>& integrator_names() { return paper::integrator_names(); }
 
 std::optional<std::string> objection(const SimulatorChoice& choice) {
   if (!is_among(engine_names(), choice.engine)) return "the engine " + choice.engine + " is unknown: expected one of " + listed(engine_names());
@@ -78,7 +78,10 @@ std::optional<std::string> objection(const SimulatorChoice& choice) {
 
 std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec, const SimulatorChoice& choice) {
   assert(!objection(choice));
-  return std::make_unique<ExactSimulator>(spec);
+  if (choice.engine == "exact") return std::make_unique<ExactSimulator>(spec);
+  const paper::Integrator integrator = *paper::integrator_named(choice.integrator);
+  if (choice.engine == "naive") return std::make_unique<paper::NaiveSimulator>(spec, integrator, choice.dt);
+  return std::make_unique<paper::PaperSimulator>(spec, integrator, choice.dt, choice.has_sharp_corners ? paper::Corners::sharp : paper::Corners::rounded);
 }
 
 std::uint32_t escape_count(const Simulator& simulator) {

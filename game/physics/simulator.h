@@ -60,6 +60,7 @@ struct SimulatorChoice {
   std::string engine = "exact";
   std::string integrator = "euler";
   double dt = 1.0 / 60.0;
+  bool has_sharp_corners = true;  ///< of bats, where the paper's engine lets a disc meet them
 };
 
 /// exact: events at their exact times (docs/physics.md). paper: frames with times of impact; naive: frames with static tests only (docs/paper-engine.md).

@@ -1,0 +1,81 @@
+// Questions about all bodies at once, answered at now() and changing nothing.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "game/physics/paper/frame_simulator.h"
+
+namespace rink::physics::paper {
+
+namespace {
+
+/// How far a rectangle of `half_extent` grown by `radius` (sums of two bodies) around the origin is from `offset`; below 0 inside.
+double gap(const Vector2& offset, const Vector2& half_extent, double radius) {
+  const Vector2 outside = offset.cwiseAbs() - half_extent;
+  if (outside.maxCoeff() <= 0.0) return outside.maxCoeff() - radius;
+  return outside.cwiseMax(0.0).norm() - radius;
+}
+
+}  // namespace
+
+bool FrameSimulator::is_free(const Vector2& centre, double radius) const { return is_free(centre, {0.0, 0.0}, radius); }
+bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent) const { return is_free(centre, half_extent, 0.0); }
+
+bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent, double radius) const {
+  const Vector2 extent = half_extent + Vector2::Constant(radius);
+  if ((centre - extent).minCoeff() < 0.0 || centre.x() + extent.x() > spec_.field.length || centre.y() + extent.y() > spec_.field.width) return false;
+  return std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+    return body.is_in_play && gap(centre - phase_at(body, now_).position, half_extent + body.half_extent, radius + body.radius) < 0.0;
+  });
+}
+
+double FrameSimulator::kinetic_energy() const {
+  double sum = 0.0;
+  for (const Body& body : bodies_)
+    if (body.is_in_play && body.inverse_mass > 0.0) sum += 0.5 * body.mass * phase_at(body, now_).velocity.squaredNorm();
+  return sum;
+}
+
+Vector2 FrameSimulator::momentum() const {
+  Vector2 sum(0.0, 0.0);
+  for (const Body& body : bodies_)
+    if (body.is_in_play && body.inverse_mass > 0.0) sum += body.mass * phase_at(body, now_).velocity;
+  return sum;
+}
+
+double FrameSimulator::max_overlap() const {
+  FrameGrid grid;
+  grid.clear(spec_.field, body_count());
+  double deepest = 0.0;
+  for (std::uint32_t index = 0; index < bodies_.size(); ++index) {
+    const Body& body = bodies_[index];
+    if (!body.is_in_play) continue;
+    const Vector2 position = phase_at(body, now_).position, extent = extent_of(body);
+    const Extent box{position - extent, position + extent};
+    grid.around(box, [&](std::uint32_t other) {
+      deepest = std::max(deepest, -gap(position - phase_at(bodies_[other], now_).position, body.half_extent + bodies_[other].half_extent, body.radius + bodies_[other].radius));
+    });
+    grid.insert(index, box);
+    if (body.kind == BodyKind::post) continue;
+    const bool is_in_mouth = body.kind == BodyKind::puck && is_in_opening(position.y());
+    const double end = is_in_mouth ? 0.0 : std::min(box.low.x(), spec_.field.length - box.high.x());
+    deepest = std::max({deepest, -end, -box.low.y(), box.high.y() - spec_.field.width});
+  }
+  return deepest;
+}
+
+/// FNV-1a of the last states: equal for equal histories, wherever advance() stopped on the way.
+std::uint64_t FrameSimulator::hash() const {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  const auto mix = [&](double value) {
+    auto bits = std::bit_cast<std::uint64_t>(value);
+    for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 0x100000001b3ULL;
+  };
+  for (const Body& body : bodies_) {
+    for (const double value : {body.start.position.x(), body.start.position.y(), body.start.velocity.x(), body.start.velocity.y(), body.start_time}) mix(value);
+    mix(body.is_in_play ? 1.0 : 0.0);
+  }
+  return hash;
+}
+
+}  // namespace rink::physics::paper

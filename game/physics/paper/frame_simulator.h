@@ -1,0 +1,115 @@
+// What the stepped engines share: bodies that an integrator carries through frames of fixed length, the answers to all questions, and impulses.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "game/physics/paper/frame_grid.h"
+#include "game/physics/paper/integrator.h"
+#include "game/physics/simulator.h"
+
+namespace rink::physics::paper {
+
+/// Frame k lasts from k dt to (k + 1) dt, whoever asks what in between: questions within a frame are answered by a shorter step from the body's last state and change
+/// nothing. A key within a frame takes effect at its own instant: from there its bat, and nobody else, is stepped anew. Method and errors: docs/paper-engine.md.
+class FrameSimulator : public Simulator {
+ public:
+  BodyId add(const PuckSpec& spec) override;
+  BodyId add(const BatSpec& spec) override;
+  BodyId add(const PostSpec& spec) override;
+  void remove(BodyId body) override;
+  void set_thrust(BodyId bat, const Vector2& acceleration) override;
+  void place(BodyId puck, const Vector2& position, const Vector2& velocity) override;
+  std::optional<Goal> advance(double until) override;
+
+  void record_impacts(bool is_wanted) override { records_impacts_ = is_wanted; }
+  std::span<const Impact> impacts() const override { return impacts_; }
+  void forget_impacts() override { impacts_.clear(); }
+
+  const WorldSpec& spec() const override { return spec_; }
+  double now() const override { return now_; }
+  std::uint32_t body_count() const override { return static_cast<std::uint32_t>(bodies_.size()); }
+  BodyKind kind(BodyId body) const override { return bodies_[body.index].kind; }
+  double radius(BodyId body) const override { return bodies_[body.index].radius; }
+  Vector2 half_extent(BodyId body) const override { return extent_of(bodies_[body.index]); }
+  double mass(BodyId body) const override { return bodies_[body.index].mass; }
+  bool is_in_play(BodyId body) const override { return bodies_[body.index].is_in_play; }
+  Vector2 position(BodyId body) const override { return phase_at(bodies_[body.index], now_).position; }
+  Vector2 velocity(BodyId body) const override { return phase_at(bodies_[body.index], now_).velocity; }
+  bool is_free(const Vector2& centre, double radius) const override;
+  bool is_free(const Vector2& centre, const Vector2& half_extent) const override;
+
+  Counters counters() const override { return counters_; }
+  double kinetic_energy() const override;
+  Vector2 momentum() const override;
+  double max_overlap() const override;
+  std::uint64_t hash() const override;
+
+ protected:
+  FrameSimulator(const WorldSpec& spec, Integrator integrator, double dt);
+
+  /// A body at its last state within the frame, and where the frame will leave it if nothing comes in between.
+  struct Body {
+    Phase start, end;
+    double start_time = 0.0;
+    Vector2 chord{0.0, 0.0};  ///< velocity on the straight path from start to end
+    Force force;
+    Vector2 half_extent{0.0, 0.0};  ///< of a rectangle; 0 for discs
+    double radius = 0.0;
+    double mass = 1.0, inverse_mass = 1.0;
+    std::uint32_t version = 0;  ///< of the path
+    std::uint32_t impacts = 0;  ///< within this frame
+    BodyKind kind = BodyKind::puck;
+    MaterialId material = 0;
+    Half half = Half::both;
+    bool is_in_play = true, is_removed = false;
+    bool is_stopped = false;  ///< stays where it is until the next frame
+  };
+  /// A body, or a part of the field.
+  using Partner = std::uint32_t;
+  static constexpr Partner wall = 0xffffffff, goal_edge = 0xfffffffe, goal_line = 0xfffffffd, field_parts = goal_line;
+
+  /// All bodies were stepped; within a frame the following two keep up with them.
+  virtual void begin() = 0;
+  /// `body` has come, or goes another way from now on.
+  virtual void turned(std::uint32_t body) = 0;
+  /// Whatever happens up to and including `until`, which lies within the frame, or up to the first goal.
+  virtual std::optional<Goal> play(double until) = 0;
+
+  static bool is_body(Partner partner) { return partner < field_parts; }
+  static Vector2 extent_of(const Body& body) { return body.half_extent + Vector2::Constant(body.radius); }
+  double frame_end() const { return static_cast<double>(frame_ + 1) * dt_; }
+  bool can_move(const Body& body) const { return body.inverse_mass > 0.0 && (body.start.velocity != Vector2(0.0, 0.0) || body.force.thrust != Vector2(0.0, 0.0)); }
+  Phase phase_at(const Body& body, double time) const;
+  /// Steps `body` from its last state to the end of the frame.
+  void plan(Body& body);
+  /// The state at `time` becomes the last one.
+  void rebase(Body& body, double time);
+  /// Puts a puck out of play at its last state.
+  Goal score(std::uint32_t body);
+  /// Impulse and momentum along `normal`, the unit vector from `partner` to `body`, both at their last states. Records the impact at `time`.
+  void respond(std::uint32_t body, Partner partner, const Vector2& normal, double time);
+  /// Whether `centre` is between the edges of a goal.
+  bool is_in_opening(double y) const { return std::abs(y - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width; }
+
+  WorldSpec spec_;
+  Integrator integrator_;
+  double dt_;
+  double now_ = 0.0;
+  std::vector<Body> bodies_;
+  Counters counters_;
+
+ private:
+  BodyId add(Body body);
+  void begin_frame();
+  void finish_frame();
+  void count_impact(std::uint32_t body, Partner partner, double time);
+  bool is_free(const Vector2& centre, const Vector2& half_extent, double radius) const;
+
+  std::uint64_t frame_ = 0;
+  bool is_begun_ = false;
+  bool records_impacts_ = false;
+  std::vector<Impact> impacts_;
+};
+
+}  // namespace rink::physics::paper
