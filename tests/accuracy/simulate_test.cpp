@@ -1,0 +1,56 @@
+// Every scene of the suite runs under rink simulate and is listed in docs/accuracy-suite.md.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/accuracy/accuracy_scene.h"
+
+namespace rink::accuracy {
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::vector<std::filesystem::path> all_scenes() {
+  std::vector<std::filesystem::path> scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy"))
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+/// What rink simulate writes about `scene` at `until`.
+std::string summary_of(const std::filesystem::path& scene, const std::string& until) {
+  const std::string summary = testing::TempDir() + "/rink-accuracy-" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
+  const std::string command = std::string(RINK_BINARY_DIR) + "/bin/rink-simulate " + scene.string() + " --until " + until + " --summary " + summary + " >" + summary + ".out 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command << ": " << text_of(summary + ".out");
+  const std::string text = text_of(summary);
+  std::filesystem::remove(summary);
+  std::filesystem::remove(summary + ".out");
+  return text;
+}
+
+TEST(EveryAccuracyScene, RunsUnderRinkSimulate) {
+  for (const auto& scene : all_scenes()) EXPECT_THAT(summary_of(scene, "0.001"), testing::HasSubstr("\"collisions\"")) << scene;
+}
+
+TEST(EveryAccuracyScene, IsListedInTheDocuments) {
+  const std::string document = text_of(std::string(RINK_SOURCE_DIR) + "/docs/accuracy-suite.md");
+  std::vector<std::string> missing;
+  for (const auto& scene : all_scenes())
+    if (document.find("`" + scene.stem().string() + "`") == std::string::npos) missing.push_back(scene.stem().string());
+  EXPECT_THAT(missing, testing::IsEmpty());
+}
+
+TEST(RinkSimulate, CountsTheDigitsOfPi) {
+  EXPECT_THAT(summary_of(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy/pi-chain-4.toml", "15"), testing::HasSubstr("\"collisions\": 31415,"));
+}
+
+}  // namespace
+}  // namespace rink::accuracy
