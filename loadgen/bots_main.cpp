@@ -17,6 +17,7 @@
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/bot_crowd.h"
+#include "loadgen/bots_report.h"
 #include "loadgen/process.h"
 #include "game/players/random_plan.h"
 #include "rti/transport/tcp.h"
@@ -136,34 +137,6 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
   return "";
 }
 
-Json report(const Options& options, const loadgen::BotCrowd& crowd) {
-  const loadgen::Measurements& measured = crowd.measurements();
-  const loadgen::CrowdTraffic traffic = crowd.traffic(), total = crowd.total_traffic();
-  const std::string why = why_invalid(options, crowd);
-  return {{"clients", options.count},
-          {"measured_s", crowd.measured_s()},
-          {"bytes_received", traffic.bytes_received},
-          {"bytes_sent", traffic.bytes_sent},
-          {"segments_sent", traffic.segments_sent},
-          {"updates_received", traffic.updates_received},
-          {"update_age_ms", measured.update_age.to_json()},
-          {"key_to_effect_ms", measured.key_to_effect.to_json()},
-          {"keys_due", measured.keys_due},
-          {"keys_sent", measured.keys_sent},
-          {"keys_unanswered", crowd.unanswered_keys()},
-          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
-          {"send_lateness_ms", measured.send_lateness.to_json()},
-          {"federates_lost", crowd.lost_count()},
-          {"bytes_received_by_bot", crowd.bytes_received_by_bot()},
-          {"evidence_bytes", crowd.evidence_bytes()},
-          {"total_bytes_received", total.bytes_received},
-          {"total_bytes_sent", total.bytes_sent},
-          {"kernel_bytes_received", total.kernel_bytes_received},
-          {"kernel_bytes_sent", total.kernel_bytes_sent},
-          {"valid", why.empty()},
-          {"why_invalid", why}};
-}
-
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   if (is_interrupted) return game::ExitStatus::interrupted;
   if (!crowd.has_started() || crowd.lost_count() > 0) {
@@ -200,7 +173,7 @@ game::ExitStatus play(const Options& options) {
     load.look(crowd.is_measuring());
   }
   for (const double until_s = now_s() + 0.1; !is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
-  Json written = report(options, crowd);
+  Json written = loadgen::bots_report(crowd, why_invalid(options, crowd));
   written["cpu_share"] = load.share() ? Json(*load.share()) : Json(nullptr);
   written["histogram_ns_per_record"] = histogram_ns;
   const game::ExitStatus result = status(crowd);

@@ -6,7 +6,6 @@
 
 #include "game/control/key_log.h"
 #include "game/control/playing.h"
-#include "game/model/scene_file.h"
 #include "game/players/random_plan.h"
 #include "loadgen/results.h"
 
@@ -41,13 +40,15 @@ std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& 
 
 }  // namespace
 
-game::Scene scene_of(const Experiment& experiment, const Cell& cell) {
-  game::Scene scene = game::load_scene(experiment.scene);
-  if (experiment.population == Population::per_client) scene = game::scaled_to_bats(std::move(scene), cell.clients);
-  if (cell.bats > 0) scene = game::with_count(std::move(scene), physics::BodyKind::bat, cell.bats);
-  if (cell.pucks > 0) scene = game::with_count(std::move(scene), physics::BodyKind::puck, cell.pucks);
-  return cell.seed > 0 ? game::with_seed(std::move(scene), cell.seed) : scene;
+game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell) {
+  return {.scene = experiment.scene,
+          .bats = experiment.population == Population::per_client ? cell.clients : 0u,
+          .bat_count = cell.bats,
+          .puck_count = cell.pucks,
+          .seed = cell.seed};
 }
+
+game::Scene scene_of(const Experiment& experiment, const Cell& cell) { return game::chosen_scene(choice_of(experiment, cell)); }
 
 void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file) {
   game::KeyLog log;

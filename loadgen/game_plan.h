@@ -3,10 +3,13 @@
 
 #include <filesystem>
 
-#include "game/model/scene.h"
+#include "game/net/scene_choice.h"
 #include "loadgen/experiment.h"
 
 namespace rink::loadgen {
+
+/// What the server of `cell` is told to play.
+game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell);
 
 /// The scene as the server of `cell` makes it from its arguments. Throws game::SceneError.
 game::Scene scene_of(const Experiment& experiment, const Cell& cell);

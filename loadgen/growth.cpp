@@ -15,17 +15,6 @@ namespace {
 
 constexpr std::size_t places_min = 3;
 
-struct Factor {
-  const char* name;
-  std::uint32_t Cell::*number;
-};
-constexpr std::array factors{Factor{"clients", &Cell::clients}, Factor{"pucks", &Cell::pucks}, Factor{"bats", &Cell::bats}};
-
-std::optional<double> total_us(const RunRecord& run) {
-  if (!run.physics_us_per_tick || !run.filter_us_per_tick || !run.send_us_per_tick) return std::nullopt;
-  return *run.physics_us_per_tick + *run.filter_us_per_tick + *run.send_us_per_tick;
-}
-
 struct Quantity {
   const char* name;
   const char* title;  ///< in the terminal's table
@@ -35,22 +24,22 @@ constexpr std::array quantities{
     Quantity{"physics_us_per_tick", "physics", [](const RunRecord& run) { return run.physics_us_per_tick; }},
     Quantity{"filter_us_per_tick", "filter", [](const RunRecord& run) { return run.filter_us_per_tick; }},
     Quantity{"send_us_per_tick", "send", [](const RunRecord& run) { return run.send_us_per_tick; }},
-    Quantity{"total_us_per_tick", "tick", total_us},
+    Quantity{"total_us_per_tick", "tick", [](const RunRecord& run) { return run.total_us_per_tick(); }},
     Quantity{"down_bytes_per_client_per_s", "B/client", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
 };
 
 /// Equal but for seed and `factor`.
-bool differ_in_factor_alone(const RunRecord& a, const RunRecord& b, const Factor& factor) {
+bool differ_in_factor_alone(const RunRecord& a, const RunRecord& b, const GrowthFactor& factor) {
   Cell other = b.cell;
   other.seed = a.cell.seed;
   other.*factor.number = a.cell.*factor.number;
   return other == a.cell && a.population == b.population && a.scene == b.scene;
 }
 
-std::string held_text(const RunRecord& run, const Factor& factor) {
+std::string held_text(const RunRecord& run, const GrowthFactor& factor) {
   if (run.population == "per_client") return "density";
   std::string text;
-  for (const Factor& other : factors) {
+  for (const GrowthFactor& other : growth_factors) {
     if (other.number == factor.number) continue;
     const std::uint32_t number = run.cell.*other.number;
     text += (text.empty() ? "" : ", ") + (number == 0 ? std::string("the scene's ") : std::to_string(number) + " ") + other.name;
@@ -58,14 +47,14 @@ std::string held_text(const RunRecord& run, const Factor& factor) {
   return text;
 }
 
-std::size_t places_of(const std::vector<const RunRecord*>& runs, const Factor& factor) {
+std::size_t places_of(const std::vector<const RunRecord*>& runs, const GrowthFactor& factor) {
   std::set<std::uint32_t> places;
   for (const RunRecord* run : runs) places.insert(run->cell.*factor.number);
   return places.size();
 }
 
 /// Nothing if some run lacks the quantity.
-std::optional<PowerFit> fit_of(const std::vector<const RunRecord*>& runs, const Factor& factor, const Quantity& quantity) {
+std::optional<PowerFit> fit_of(const std::vector<const RunRecord*>& runs, const GrowthFactor& factor, const Quantity& quantity) {
   std::vector<FitPoint> points;
   for (const RunRecord* run : runs) {
     const auto value = quantity.of(*run);
@@ -75,7 +64,7 @@ std::optional<PowerFit> fit_of(const std::vector<const RunRecord*>& runs, const 
   return fit_power(points);
 }
 
-void add_growths(const std::vector<const RunRecord*>& runs, const Factor& factor, std::vector<Growth>& growths) {
+void add_growths(const std::vector<const RunRecord*>& runs, const GrowthFactor& factor, std::vector<Growth>& growths) {
   const RunRecord& first = *runs.front();
   for (const Quantity& quantity : quantities) {
     if (const auto fit = fit_of(runs, factor, quantity)) {
@@ -119,7 +108,7 @@ bool is_same_row(const Growth& a, const Growth& b) {
 
 std::vector<Growth> growths_of(std::span<const RunRecord> runs) {
   std::vector<Growth> growths;
-  for (const Factor& factor : factors) {
+  for (const GrowthFactor& factor : growth_factors) {
     std::vector<std::vector<const RunRecord*>> groups;
     for (const RunRecord& run : runs) {
       if (!run.valid || run.cell.*factor.number == 0) continue;

@@ -1,6 +1,8 @@
 // How a tick's cost and the bytes grow with clients, pucks and bats, read off the runs of an experiment.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +11,13 @@
 #include "loadgen/run_record.h"
 
 namespace rink::loadgen {
+
+/// A number of a cell over which cost may grow.
+struct GrowthFactor {
+  const char* name;
+  std::uint32_t Cell::*number;
+};
+inline constexpr std::array growth_factors{GrowthFactor{"clients", &Cell::clients}, GrowthFactor{"pucks", &Cell::pucks}, GrowthFactor{"bats", &Cell::bats}};
 
 /// One line of growth.csv: how `figure` of one scheme and policy grows with `factor` while all else stays.
 struct Growth {

@@ -203,6 +203,11 @@ void add_truth(nlohmann::ordered_json& line, const TruthFigures& truth) {
 
 }  // namespace
 
+std::optional<double> RunRecord::total_us_per_tick() const {
+  if (!physics_us_per_tick || !filter_us_per_tick || !send_us_per_tick) return std::nullopt;
+  return *physics_us_per_tick + *filter_us_per_tick + *send_us_per_tick;
+}
+
 RunRecord record_for(const Experiment& experiment, const Cell& cell) {
   RunRecord record;
   record.cell = cell;

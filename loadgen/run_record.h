@@ -64,6 +64,9 @@ struct RunRecord {
   GeneratorHealth health;
   std::string transport, players;
   double delay_ms = 0.0, view_area = 0.0;
+
+  /// Physics, filter and send together; absent unless all three are there.
+  std::optional<double> total_us_per_tick() const;
 };
 
 /// A record of `cell` without figures yet; not valid.

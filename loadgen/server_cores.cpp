@@ -4,25 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdio>
-
-#include "loadgen/distributions.h"
 
 namespace rink::loadgen {
 namespace {
-
-std::optional<double> total_us(const RunRecord& run) {
-  if (!run.physics_us_per_tick || !run.filter_us_per_tick || !run.send_us_per_tick) return std::nullopt;
-  return *run.physics_us_per_tick + *run.filter_us_per_tick + *run.send_us_per_tick;
-}
 
 struct Quantity {
   const char* name;
   std::optional<double> (*of)(const RunRecord&);
 };
 constexpr std::array quantities{
-    Quantity{"total_us_per_tick", total_us},
+    Quantity{"total_us_per_tick", [](const RunRecord& run) { return run.total_us_per_tick(); }},
     Quantity{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
     Quantity{"update_age_ms_p50", [](const RunRecord& run) { return run.update_age_ms.p50; }},
     Quantity{"update_age_ms_p99", [](const RunRecord& run) { return run.update_age_ms.p99; }},
@@ -58,30 +50,21 @@ std::vector<std::vector<Pair>> pairs_of(std::span<const RunRecord> runs) {
 }
 
 /// Nothing if some run lacks the figure or has 0, of which there is no ratio.
-std::optional<CoresRatio> ratio_of(const std::vector<Pair>& pairs, const Quantity& quantity) {
-  std::vector<double> logs;
+std::optional<CoresRatio> cores_ratio(const std::vector<Pair>& pairs, const Quantity& quantity) {
+  std::vector<std::pair<double, double>> values;
   for (const Pair& pair : pairs) {
     const auto apart = quantity.of(*pair.apart), anywhere = quantity.of(*pair.anywhere);
-    if (!apart || !anywhere || *apart <= 0.0 || *anywhere <= 0.0) return std::nullopt;
-    logs.push_back(std::log(*anywhere / *apart));
+    if (!apart || !anywhere) return std::nullopt;
+    values.emplace_back(*anywhere, *apart);
   }
-  const auto count = static_cast<double>(logs.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double log : logs) mean += log / count;
-  for (const double log : logs) squares += (log - mean) * (log - mean);
-  CoresRatio result{pairs.front().apart->cell, quantity.name, pairs.size(), std::exp(mean), std::nullopt, std::nullopt};
-  if (logs.size() > 1) {
-    const double half = student_t_quantile(0.975, count - 1.0) * std::sqrt(squares / (count - 1.0) / count);
-    result.low = std::exp(mean - half);
-    result.high = std::exp(mean + half);
-  }
-  return result;
+  const auto ratio = ratio_of(values);
+  if (!ratio) return std::nullopt;
+  return CoresRatio{pairs.front().apart->cell, quantity.name, *ratio};
 }
 
-std::string number(std::optional<double> value) {
-  if (!value) return {};
+std::string number(double value) {
   std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), *value, std::chars_format::general, 6).ptr};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr};
 }
 
 }  // namespace
@@ -90,7 +73,7 @@ std::vector<CoresRatio> cores_ratios_of(std::span<const RunRecord> runs) {
   std::vector<CoresRatio> ratios;
   for (const std::vector<Pair>& pairs : pairs_of(runs))
     for (const Quantity& quantity : quantities)
-      if (const auto ratio = ratio_of(pairs, quantity)) ratios.push_back(*ratio);
+      if (const auto ratio = cores_ratio(pairs, quantity)) ratios.push_back(*ratio);
   return ratios;
 }
 
@@ -98,8 +81,9 @@ std::string to_csv(std::span<const CoresRatio> ratios) {
   std::string csv = "mode,scheme,policy,clients,pucks,bats,figure,pairs,ratio,ratio_low,ratio_high\n";
   for (const CoresRatio& ratio : ratios) {
     const Cell& cell = ratio.cell;
+    const auto& interval = ratio.ratio.interval;
     csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.bats) + "," +
-           ratio.figure + "," + std::to_string(ratio.pairs) + "," + number(ratio.ratio) + "," + number(ratio.low) + "," + number(ratio.high) + "\n";
+           ratio.figure + "," + std::to_string(ratio.ratio.pairs) + "," + number(ratio.ratio.value) + "," + (interval ? number(interval->low) + "," + number(interval->high) : ",") + "\n";
   }
   return csv;
 }
@@ -110,14 +94,14 @@ std::string cores_table(std::span<const CoresRatio> ratios) {
   std::array<char, 160> line;
   for (const CoresRatio& ratio : ratios) {
     std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %7u  %-24.24s %7.3f", ratio.cell.scheme.c_str(), ratio.cell.policy.c_str(), ratio.cell.clients, ratio.figure.c_str(),
-                  ratio.ratio);
+                  ratio.ratio.value);
     text += line.data();
-    if (ratio.low) {
-      std::snprintf(line.data(), line.size(), "  %.3f to %.3f%s", *ratio.low, *ratio.high, ratio.is_significant() ? "" : "  no significant difference");
+    const Difference difference = ratio.ratio.difference();
+    if (const auto& interval = ratio.ratio.interval) {
+      std::snprintf(line.data(), line.size(), "  %.3f to %.3f", interval->low, interval->high);
       text += line.data();
-    } else {
-      text += "  cannot be told from one replication";
     }
+    if (difference == Difference::insignificant || difference == Difference::unknown) text += std::string("  ") + words_for(difference);
     text += "\n";
   }
   return text;

@@ -1,13 +1,12 @@
 // The server on a processor of its own against both programs on any: what the second processor changes.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "loadgen/run_record.h"
+#include "loadgen/statistics.h"
 
 namespace rink::loadgen {
 
@@ -15,10 +14,7 @@ namespace rink::loadgen {
 struct CoresRatio {
   Cell cell;           ///< what the pairs have in common; seed and server_cores are those of the first run
   std::string figure;  ///< a column of runs.jsonl, or total_us_per_tick
-  std::size_t pairs = 0;
-  double ratio = 0.0;                       ///< geometric mean
-  std::optional<double> low, high;          ///< 95 % t interval of the mean logarithm; absent for one pair
-  bool is_significant() const { return low && (*low > 1.0 || *high < 1.0); }
+  Ratio ratio;         ///< anywhere / apart
 };
 
 /// All ratios that the valid runs show, for each cell run with server_cores 1 and 2.

@@ -12,9 +12,11 @@
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
 #include "game/replication/trajectory_codec.h"
+#include "game/net/serve_report.h"
 #include "game/net/serving.h"
 #include "game/players/player.h"
 #include "loadgen/bot_crowd.h"
+#include "loadgen/bots_report.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/results.h"
 #include "loadgen/truth/truth.h"
@@ -43,14 +45,6 @@ struct Failure {
   std::string why;
 };
 
-/// What a server's figures are made of, at one instant.
-struct ServerCounts {
-  rti::FederationCounters federation;
-  rti::TransportCounters transport;
-  im::FilterCounters filter;
-  physics::Counters physics;
-};
-
 class VirtualRun {
  public:
   VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
@@ -65,7 +59,6 @@ class VirtualRun {
 
  private:
   static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys);
-  static rti::FederationSettings federation_settings(const Cell& cell, const game::Scene& scene);
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
@@ -79,7 +72,6 @@ class VirtualRun {
   void await(const std::string& what, Condition is_met);
   void start();
   void play();
-  ServerCounts counts() const;
 
   const RunnerSettings& settings_;
   const Experiment& experiment_;
@@ -92,19 +84,12 @@ class VirtualRun {
   BotCrowd crowd_;
   std::int64_t start_ns_ = 0, measured_from_ns_ = 0, measured_until_ns_ = 0;
   std::uint64_t ticks_ = 0;
-  ServerCounts begin_, end_;
+  game::ServingCounts begin_, end_;
 };
 
 game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys) {
   game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / experiment.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
-  return settings;
-}
-
-rti::FederationSettings VirtualRun::federation_settings(const Cell& cell, const game::Scene& scene) {
-  rti::FederationSettings settings;
-  settings.filter = cell.scheme;
-  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell.parameters.cell_size};
   return settings;
 }
 
@@ -127,7 +112,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       cell_(cell),
       link_(nanoseconds(1e-3 * experiment.delay_ms)),
       network_(link_),
-      serving_(fom, scene, server_settings(experiment, cell, keys), federation_settings(cell, scene), [this] { return now_s(); }, [this] { return simulated_now(); }),
+      serving_(fom, scene, server_settings(experiment, cell, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size), [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {
@@ -191,14 +176,14 @@ void VirtualRun::play() {
     const double simulated_s = static_cast<double>(number) / rate_hz;
     advance_until(start_ns_ + nanoseconds(simulated_s));
     if (ticks_ == 0 && simulated_s >= experiment_.warm_up_s) {
-      begin_ = counts();
+      begin_ = counts_of(serving_, server_end_.totals());
       measured_from_ns_ = network_.now_ns();
     }
     serving_.tick(simulated_s, now_s());
     crowd_.run_once();
     if (simulated_s >= experiment_.warm_up_s) ++ticks_;
   }
-  end_ = counts();
+  end_ = counts_of(serving_, server_end_.totals());
   measured_until_ns_ = network_.now_ns();
   advance_until(start_ns_ + nanoseconds(played_s) + 4 * nanoseconds(1e-3 * experiment_.delay_ms) + 1);  // the last answers
 }
@@ -208,87 +193,41 @@ void VirtualRun::run() {
   play();
 }
 
-ServerCounts VirtualRun::counts() const {
-  return {serving_.execution().counters(), server_end_.totals(), serving_.execution().filter().counters(), server_.game().world().counters()};
-}
-
 Json VirtualRun::server_report() const {
-  const rti::FederationCounters &begin = begin_.federation, &end = end_.federation;
-  std::uint64_t dropped = 0;
-  for (const std::uint64_t count : end.drops) dropped += count;
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(server_.game().hash()));
   const std::string why = !server_.trouble().empty() ? server_.trouble() : ticks_ == 0 ? "no tick was measured" : "";
-  return {{"mode", cell_.mode},
-          {"scheme", cell_.scheme},
-          {"policy", cell_.policy},
-          {"clients", cell_.clients},
-          {"entities", server_.game().entities().size()},
-          {"seed", cell_.seed},
-          {"tick_rate_hz", experiment_.tick_rate_hz},
-          {"ticks", ticks_},
-          {"ticks_on_time_fraction", nullptr},
-          {"physics_us_per_tick", nullptr},
-          {"filter_us_per_tick", nullptr},
-          {"send_us_per_tick", nullptr},
-          {"server_rss_bytes", nullptr},
-          {"state_hash", hash},
-          {"measured_s", 1e-9 * static_cast<double>(measured_until_ns_ - measured_from_ns_)},
-          {"bytes_sent", end_.transport.bytes_sent - begin_.transport.bytes_sent},
-          {"bytes_received", end_.transport.bytes_received - begin_.transport.bytes_received},
-          {"writes_sent", end_.transport.writes - begin_.transport.writes},
-          {"segments_sent", end_.transport.segments_sent - begin_.transport.segments_sent},
-          {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
-          {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},
-          {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
-          {"scope_entries", end.scope_entries - begin.scope_entries},
-          {"scope_exits", end.scope_exits - begin.scope_exits},
-          {"physics_events", end_.physics.events() - begin_.physics.events()},
-          {"filter_regions_moved", end_.filter.regions_moved - begin_.filter.regions_moved},
-          {"filter_pairs_tested", end_.filter.pairs_tested - begin_.filter.pairs_tested},
-          {"lost_federates", server_.counters().federates_lost},
-          {"dropped_connections", dropped + serving_.host().closed_by_full_queue()},
-          {"keys_received", server_.counters().keys_received},
-          {"keys_applied", server_.counters().keys_applied},
-          {"keys_refused", server_.counters().keys_refused},
-          {"valid", why.empty()},
-          {"why_invalid", why}};
+  Json report{{"mode", cell_.mode},
+              {"scheme", cell_.scheme},
+              {"policy", cell_.policy},
+              {"clients", cell_.clients},
+              {"seed", cell_.seed},
+              {"tick_rate_hz", experiment_.tick_rate_hz},
+              {"ticks", ticks_},
+              {"ticks_on_time_fraction", nullptr},
+              {"physics_us_per_tick", nullptr},
+              {"filter_us_per_tick", nullptr},
+              {"send_us_per_tick", nullptr},
+              {"server_rss_bytes", nullptr},
+              {"measured_s", 1e-9 * static_cast<double>(measured_until_ns_ - measured_from_ns_)},
+              {"valid", why.empty()},
+              {"why_invalid", why}};
+  report.update(counted_report(serving_, begin_, end_));
+  return report;
 }
 
 Json VirtualRun::bots_report() const {
   const Measurements& measured = crowd_.measurements();
-  const CrowdTraffic traffic = crowd_.traffic(), total = crowd_.total_traffic();
   std::string why;
   if (crowd_.lost_count() > 0) why = std::to_string(crowd_.lost_count()) + " of " + std::to_string(cell_.clients) + " bots were lost: " + crowd_.first_trouble();
   else if (!crowd_.is_over()) why = "the game did not end";
   else if (measured.keys_sent < measured.keys_due) why = std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
-  return {{"clients", cell_.clients},
-          {"measured_s", crowd_.measured_s()},
-          {"bytes_received", traffic.bytes_received},
-          {"bytes_sent", traffic.bytes_sent},
-          {"segments_sent", traffic.segments_sent},
-          {"updates_received", traffic.updates_received},
-          {"update_age_ms", measured.update_age.to_json()},
-          {"key_to_effect_ms", measured.key_to_effect.to_json()},
-          {"keys_due", measured.keys_due},
-          {"keys_sent", measured.keys_sent},
-          {"keys_unanswered", crowd_.unanswered_keys()},
-          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
-          {"send_lateness_ms", measured.send_lateness.to_json()},
-          {"federates_lost", crowd_.lost_count()},
-          {"bytes_received_by_bot", crowd_.bytes_received_by_bot()},
-          {"memory_bytes_per_client", crowd_.client_memory_bytes() / cell_.clients},
-          {"total_bytes_received", total.bytes_received},
-          {"total_bytes_sent", total.bytes_sent},
-          {"kernel_bytes_received", nullptr},
-          {"kernel_bytes_sent", nullptr},
-          {"valid", why.empty()},
-          {"why_invalid", why}};
+  Json report = loadgen::bots_report(crowd_, why);
+  report["kernel_bytes_received"] = report["kernel_bytes_sent"] = nullptr;
+  return report;
 }
 
 void VirtualRun::write_evidence(const std::string& server_file, const std::string& bots_file) const {
   game::ServerEvidence server = serving_.evidence().value();
-  server.choice = {.scene = experiment_.scene, .bats = experiment_.population == Population::per_client ? cell_.clients : 0u, .bat_count = cell_.bats, .puck_count = cell_.pucks, .seed = cell_.seed};
+  server.choice = choice_of(experiment_, cell_);
   server.scheme = cell_.scheme;
   server.policy = cell_.policy;
   game::write_evidence(server_file, server);
@@ -299,10 +238,7 @@ void VirtualRun::end(Json& server_report) {
   crowd_.resign();
   const std::int64_t delay_ns = nanoseconds(1e-3 * experiment_.delay_ms);
   advance_until(network_.now_ns() + 2 * delay_ns);
-  server_report["total_bytes_sent"] = server_end_.totals().bytes_sent;
-  server_report["total_bytes_received"] = server_end_.totals().bytes_received;
-  server_report["kernel_bytes_sent"] = nullptr;
-  server_report["kernel_bytes_received"] = nullptr;
+  game::add_totals(server_report, server_end_.totals());
 }
 
 void write_json(const std::filesystem::path& file, const Json& content) {

@@ -19,7 +19,14 @@ bool for_each(const ObjectClass& object_class, AttributeSet set, Visit visit) {
   return true;
 }
 
-/// The length word included if the size varies.
+std::optional<std::size_t> one_coded_size(const Attribute& attribute, Bytes coded) {
+  if (!attribute.codec) return plain_size(attribute, coded);
+  const std::optional<std::size_t> size = attribute.codec->size(coded);
+  return size && *size <= coded.size() ? size : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
   if (attribute.size) return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size) : std::nullopt;
   std::uint32_t length = 0;
@@ -28,14 +35,6 @@ std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) 
   if (length > values.size() - sizeof length) return std::nullopt;
   return sizeof length + length;
 }
-
-std::optional<std::size_t> one_coded_size(const Attribute& attribute, Bytes coded) {
-  if (!attribute.codec) return plain_size(attribute, coded);
-  const std::optional<std::size_t> size = attribute.codec->size(coded);
-  return size && *size <= coded.size() ? size : std::nullopt;
-}
-
-}  // namespace
 
 bool is_coded(const ObjectClass& object_class, AttributeSet set) {
   return !for_each(object_class, set, [](const Attribute& attribute, std::uint32_t) { return attribute.codec == nullptr; });

@@ -31,7 +31,11 @@ class AttributeCodec {
   virtual bool decode(Bytes coded, double time, std::vector<std::byte>& value) const = 0;
 };
 
+struct Attribute;
 struct ObjectClass;
+
+/// Bytes of the uncoded value that starts `values` (its length word included if its size varies), or nothing if it isn't all there.
+std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values);
 
 /// True if any attribute of `set` has a codec.
 bool is_coded(const ObjectClass& object_class, AttributeSet set);

@@ -2,7 +2,6 @@
 #include "rti/fom.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace rink::rti {
 
@@ -39,16 +38,6 @@ template <class Class, class Tag>
 bool inherits(const std::vector<Class>& classes, Handle<Tag> handle, Handle<Tag> ancestor) {
   while (handle && handle != ancestor) handle = classes[handle.value].parent;
   return handle == ancestor;
-}
-
-/// Size of the value that starts `values` (its length word included), or nothing if it isn't all there.
-std::optional<std::size_t> value_size(const Attribute& attribute, Bytes values) {
-  if (attribute.size) return *attribute.size <= values.size() ? std::optional<std::size_t>(*attribute.size) : std::nullopt;
-  std::uint32_t length = 0;
-  if (values.size() < sizeof length) return std::nullopt;
-  std::memcpy(&length, values.data(), sizeof length);
-  if (length > values.size() - sizeof length) return std::nullopt;
-  return sizeof length + length;
 }
 
 }  // namespace
@@ -108,7 +97,7 @@ std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, Attribut
 bool Fom::values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const {
   if (!attributes(handle).includes(set)) return false;
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto size = value_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
+    const auto size = plain_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
     if (!size) return false;
     values = values.subspan(*size);
   }
@@ -118,7 +107,7 @@ bool Fom::values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) c
 Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const {
   for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
     const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
-    const std::size_t size = value_size(at(handle).attributes[index], values).value_or(0);
+    const std::size_t size = plain_size(at(handle).attributes[index], values).value_or(0);
     if (index == attribute.value) return values.first(size);
     values = values.subspan(size);
   }

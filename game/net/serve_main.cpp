@@ -17,6 +17,7 @@
 #include "game/net/fom_file.h"
 #include "game/net/scene_choice.h"
 #include "game/net/serve_options.h"
+#include "game/net/serve_report.h"
 #include "game/net/serving.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
@@ -44,8 +45,7 @@ double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<st
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, span_s = 0.0;
-  rti::FederationCounters begin, end;          ///< of the RTI, the server's own federate included
-  rti::TransportCounters tcp_begin, tcp_end;   ///< of the clients' connections
+  game::ServingCounts begin, end;
 };
 
 /// The server process: the clients' transport, the wall clock, and the loop that ticks.
@@ -54,7 +54,7 @@ class ServerProcess {
   ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
       : options_(options),
         serving_(fom, scene, {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay)},
-                 federation_settings(options, scene, federation), now_s, [this] { return simulated_now(); }),
+                 federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
         server_(serving_.server()) {
     serving_.host().add(tcp_);
     if (!options.evidence.empty())
@@ -73,11 +73,11 @@ class ServerProcess {
   Json report() const;
   /// What the run was and what its filter decided, if `--evidence` asked for it.
   std::optional<game::ServerEvidence> evidence(const game::SceneChoice& choice) const;
-  /// Adds what the connections carried from first to last, as counted here and by the kernel.
-  void add_totals(Json& report) const;
+  /// What the connections carried from first to last.
+  rti::TransportCounters totals() const { return tcp_.totals(); }
 
  private:
-  static rti::FederationSettings federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
+  static rti::FederationSettings federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void exchange_until(double until_s);
   void await_turns();
@@ -91,11 +91,9 @@ class ServerProcess {
   Costs costs_;
 };
 
-rti::FederationSettings ServerProcess::federation_settings(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
-  rti::FederationSettings settings;
+rti::FederationSettings ServerProcess::federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
+  rti::FederationSettings settings = game::federation_settings(scene, options.scheme, options.cell_size);
   settings.federation = federation;
-  settings.filter = options.scheme;
-  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = options.cell_size};
   return settings;
 }
 
@@ -158,14 +156,12 @@ void ServerProcess::run() {
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
-      costs_.begin = serving_.execution().counters();
-      costs_.tcp_begin = tcp_.totals();
+      costs_.begin = counts_of(serving_, tcp_.totals());
     }
     tick(number);
   }
   costs_.span_s = is_measuring ? now_s() - measured_from_s : 0.0;
-  costs_.end = serving_.execution().counters();
-  costs_.tcp_end = tcp_.totals();
+  costs_.end = counts_of(serving_, tcp_.totals());
 }
 
 void ServerProcess::end() {
@@ -184,55 +180,27 @@ std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneCho
 
 Json ServerProcess::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
-  const rti::FederationCounters& begin = costs_.begin;
-  const rti::FederationCounters& end = costs_.end;
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(server_.game().hash()));
-  std::uint64_t dropped = 0;
-  for (const std::uint64_t count : end.drops) dropped += count;
   std::string why_invalid = server_.trouble();
   if (is_interrupted) why_invalid = "interrupted";
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
-  return {{"mode", "client-server"},
-          {"scheme", options_.scheme},
-          {"policy", options_.policy},
-          {"clients", options_.clients},
-          {"entities", server_.game().entities().size()},
-          {"seed", options_.seed},
-          {"tick_rate_hz", options_.rate_hz},
-          {"ticks", costs_.ticks},
-          {"ticks_on_time_fraction", static_cast<double>(costs_.ticks_on_time) / ticks},
-          {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
-          {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
-          {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
-          {"server_rss_bytes", game::resident_bytes()},
-          {"evidence_bytes", serving_.evidence_bytes()},
-          {"state_hash", hash},
-          {"measured_s", costs_.span_s},
-          {"bytes_sent", costs_.tcp_end.bytes_sent - costs_.tcp_begin.bytes_sent},
-          {"bytes_received", costs_.tcp_end.bytes_received - costs_.tcp_begin.bytes_received},
-          {"writes_sent", costs_.tcp_end.writes - costs_.tcp_begin.writes},
-          {"segments_sent", costs_.tcp_end.segments_sent - costs_.tcp_begin.segments_sent},
-          {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
-          {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
-          {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
-          {"scope_entries", end.scope_entries - begin.scope_entries},
-          {"scope_exits", end.scope_exits - begin.scope_exits},
-          {"lost_federates", server_.counters().federates_lost},
-          {"dropped_connections", dropped + serving_.host().closed_by_full_queue()},
-          {"keys_received", server_.counters().keys_received},
-          {"keys_applied", server_.counters().keys_applied},
-          {"keys_refused", server_.counters().keys_refused},
-          {"valid", why_invalid.empty()},
-          {"why_invalid", why_invalid}};
-}
-
-void ServerProcess::add_totals(Json& report) const {
-  const rti::TransportCounters total = tcp_.totals();
-  report["total_bytes_sent"] = total.bytes_sent;
-  report["total_bytes_received"] = total.bytes_received;
-  report["kernel_bytes_sent"] = total.kernel_bytes_sent.value_or(0);
-  report["kernel_bytes_received"] = total.kernel_bytes_received.value_or(0);
+  Json report{{"mode", "client-server"},
+              {"scheme", options_.scheme},
+              {"policy", options_.policy},
+              {"clients", options_.clients},
+              {"seed", options_.seed},
+              {"tick_rate_hz", options_.rate_hz},
+              {"ticks", costs_.ticks},
+              {"ticks_on_time_fraction", static_cast<double>(costs_.ticks_on_time) / ticks},
+              {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
+              {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
+              {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
+              {"server_rss_bytes", game::resident_bytes()},
+              {"evidence_bytes", serving_.evidence_bytes()},
+              {"measured_s", costs_.span_s},
+              {"valid", why_invalid.empty()},
+              {"why_invalid", why_invalid}};
+  report.update(counted_report(serving_, costs_.begin, costs_.end));
+  return report;
 }
 
 /// Throws if nobody could ever satisfy the options, or a file for the results could not be written when the run is over.
@@ -282,7 +250,7 @@ game::ExitStatus serve(game::ServeOptions& options) {
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
   process.end();
-  process.add_totals(report);
+  game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (evidence) game::write_evidence(options.evidence, *evidence);
   if (!options.record.empty()) {

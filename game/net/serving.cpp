@@ -75,4 +75,11 @@ void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   watch.add_to(costs.send_s);
 }
 
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme, double cell_size) {
+  rti::FederationSettings settings;
+  settings.filter = scheme;
+  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell_size};
+  return settings;
+}
+
 }  // namespace rink::game

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <set>
 
-#include "loadgen/distributions.h"
 #include "loadgen/report/text.h"
+#include "loadgen/statistics.h"
 
 namespace rink::loadgen {
 namespace {
@@ -81,14 +80,10 @@ void name_and_style(std::vector<CellLine>& lines) {
 
 MeanInterval mean_interval(const std::vector<double>& values) {
   assert(!values.empty());
-  const auto count = static_cast<double>(values.size());
-  double sum = 0.0, squares = 0.0;
+  double sum = 0.0;
   for (const double value : values) sum += value;
-  MeanInterval result{sum / count};
-  if (values.size() < 2) return result;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  const double half = student_t_quantile(0.975, count - 1.0) * std::sqrt(squares / (count - 1.0) / count);
-  result.interval = {result.mean - half, result.mean + half};
+  MeanInterval result{sum / static_cast<double>(values.size())};
+  if (const auto interval = interval_of_mean(values)) result.interval = {interval->low, interval->high};
   return result;
 }
 

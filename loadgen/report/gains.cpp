@@ -2,7 +2,6 @@
 #include "loadgen/report/gains.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "loadgen/report/text.h"
 
@@ -39,20 +38,16 @@ Gain::Kind kind_of(const Cell& baseline, const CellGroup& group, const CellGroup
 
 }  // namespace
 
-std::optional<PairedRatio> paired_ratio(const CellGroup& baseline, const CellGroup& own, FigureOf figure) {
-  std::vector<double> logarithms;
+std::optional<Ratio> paired_ratio(const CellGroup& baseline, const CellGroup& own, FigureOf figure) {
+  std::vector<std::pair<double, double>> pairs;
   for (const RunRecord* run : own.runs) {
     const auto twin = std::find_if(baseline.runs.begin(), baseline.runs.end(), [run](const RunRecord* other) { return other->cell.seed == run->cell.seed; });
     if (twin == baseline.runs.end()) continue;
     const auto above = figure(**twin), below = figure(*run);
-    if (!above || !below || !(*above > 0.0) || !(*below > 0.0)) return std::nullopt;
-    logarithms.push_back(std::log(*above / *below));
+    if (!above || !below) return std::nullopt;
+    pairs.emplace_back(*above, *below);
   }
-  if (logarithms.empty()) return std::nullopt;
-  const MeanInterval mean = mean_interval(logarithms);
-  PairedRatio ratio{std::exp(mean.mean)};
-  if (mean.interval) ratio.interval = {std::exp(mean.interval->first), std::exp(mean.interval->second)};
-  return ratio;
+  return ratio_of(pairs);
 }
 
 std::vector<Gain> gains_of(const Findings& findings) {
@@ -76,16 +71,16 @@ std::string headline_of(const Findings& findings) {
   const Gain* best = nullptr;
   for (const Gain& gain : gains) {
     if (gain.kind == Gain::Kind::baseline || gain.group->cell.clients != most_clients || !gain.bytes) continue;
-    if (!best || gain.bytes->times_fewer > best->bytes->times_fewer) best = &gain;
+    if (!best || gain.bytes->value > best->bytes->value) best = &gain;
   }
-  if (!best || best->bytes->times_fewer <= 1.0) return "";
+  if (!best || best->bytes->value <= 1.0) return "";
   const CellGroup* base = baseline_for(findings, best->group->cell);
-  std::string text = "At " + std::to_string(most_clients) + " clients " + best->line->name + " sends " + plain_number(best->bytes->times_fewer) + " times fewer payload bytes than " +
+  std::string text = "At " + std::to_string(most_clients) + " clients " + best->line->name + " sends " + plain_number(best->bytes->value) + " times fewer payload bytes than " +
                      line_name(findings.lines, base->cell);
-  if (best->bytes->interval) text += " (95 % interval " + plain_number(best->bytes->interval->first) + " to " + plain_number(best->bytes->interval->second) + ")";
+  if (best->bytes->interval) text += " (95 % interval " + plain_number(best->bytes->interval->low) + " to " + plain_number(best->bytes->interval->high) + ")";
   const auto own_error = best->group->mean(displayed_error), base_error = base->mean(displayed_error);
   if (own_error && base_error) text += ", with a displayed error of " + plain_number(own_error->mean) + " mm RMS against " + plain_number(base_error->mean) + " mm";
-  return text + (best->bytes->interval && !best->bytes->is_significant() ? "; no significant difference." : ".");
+  return text + (best->bytes->difference() == Difference::insignificant ? "; no significant difference." : ".");
 }
 
 }  // namespace rink::loadgen

@@ -6,19 +6,12 @@
 #include <vector>
 
 #include "loadgen/report/exhibit.h"
+#include "loadgen/statistics.h"
 
 namespace rink::loadgen {
 
-/// How many times fewer bytes: the geometric mean over seeds of baseline / own, with its 95 % t interval.
-struct PairedRatio {
-  double times_fewer = 1.0;
-  std::optional<std::pair<double, double>> interval{};  ///< absent for a single seed
-
-  bool is_significant() const { return interval && (interval->first > 1.0 || interval->second < 1.0); }
-};
-
-/// The ratio of `own` to `baseline`, paired by seed since both played the same game. Nothing if no seed has both, or one of them is not above 0.
-std::optional<PairedRatio> paired_ratio(const CellGroup& baseline, const CellGroup& own, FigureOf figure);
+/// How many times `figure` of `baseline` that of `own` is, paired by seed since both played the same game. Nothing if no seed has both, or one of them is not above 0.
+std::optional<Ratio> paired_ratio(const CellGroup& baseline, const CellGroup& own, FigureOf figure);
 
 /// One cell beside the baseline of its client count.
 struct Gain {
@@ -26,7 +19,7 @@ struct Gain {
   Kind kind = Kind::baseline;
   const CellLine* line = nullptr;
   const CellGroup* group = nullptr;
-  std::optional<PairedRatio> bytes;
+  std::optional<Ratio> bytes;  ///< how many times fewer
 };
 
 /// Every cell whose client count (and pucks, bats, cores, mode) has a baseline cell: the experiment's baseline scheme and policy. In the order of the lines

@@ -53,9 +53,9 @@ const char* words(Gain::Kind kind) {
 std::string ratio_text(const Gain& gain) {
   if (gain.kind == Gain::Kind::baseline) return "1";
   if (!gain.bytes) return "\xE2\x80\x93";
-  if (!gain.bytes->interval) return plain_number(gain.bytes->times_fewer) + " (one replication: cannot be told from chance)";
-  std::string text = plain_number(gain.bytes->times_fewer) + " (" + plain_number(gain.bytes->interval->first) + " to " + plain_number(gain.bytes->interval->second) + ")";
-  return gain.bytes->is_significant() ? text : text + ", no significant difference";
+  if (!gain.bytes->interval) return plain_number(gain.bytes->value) + " (one replication: cannot be told from chance)";
+  std::string text = plain_number(gain.bytes->value) + " (" + plain_number(gain.bytes->interval->low) + " to " + plain_number(gain.bytes->interval->high) + ")";
+  return gain.bytes->difference() == Difference::insignificant ? text + ", " + words_for(Difference::insignificant) : text;
 }
 
 std::string mean_cell(const CellGroup& group, FigureOf figure, double scale = 1.0) {
@@ -72,9 +72,9 @@ std::string html_row(const Gain& gain, bool is_first) {
 std::vector<std::string> csv_row(const Gain& gain) {
   auto row = cell_values(*gain.line, *gain.group);
   row.push_back(words(gain.kind));
-  row.push_back(gain.bytes ? exact_number(gain.bytes->times_fewer) : "");
-  row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->first) : "");
-  row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->second) : "");
+  row.push_back(gain.bytes ? exact_number(gain.bytes->value) : "");
+  row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->low) : "");
+  row.push_back(gain.bytes && gain.bytes->interval ? exact_number(gain.bytes->interval->high) : "");
   for (const FigureOf figure : {payload, displayed_rms, displayed_p99, matched_rms, delivered_recall}) {
     const auto mean = gain.group->mean(figure);
     row.push_back(mean ? exact_number(mean->mean) : "");

@@ -14,33 +14,21 @@ namespace {
 
 constexpr std::size_t values_least = 3;
 
-struct Factor {
-  const char* name;
-  std::uint32_t Cell::*of;
-};
-
-constexpr Factor factors[] = {{"clients", &Cell::clients}, {"pucks", &Cell::pucks}, {"bats", &Cell::bats}};
-
-std::optional<double> total_cost(const RunRecord& run) {
-  if (!run.physics_us_per_tick || !run.filter_us_per_tick || !run.send_us_per_tick) return std::nullopt;
-  return *run.physics_us_per_tick + *run.filter_us_per_tick + *run.send_us_per_tick;
-}
-
 /// Cells that differ in `factor` and seed alone, sorted by it.
 struct Sweep {
   Cell cell;
   std::map<std::uint32_t, std::vector<double>> costs;
 };
 
-std::vector<Sweep> sweeps_over(const Factor& factor, std::span<const RunRecord> runs) {
+std::vector<Sweep> sweeps_over(const GrowthFactor& factor, std::span<const RunRecord> runs) {
   std::vector<Sweep> sweeps;
   for (const RunRecord& run : runs) {
-    const auto cost = total_cost(run);
-    const std::uint32_t value = run.cell.*factor.of;
+    const auto cost = run.total_us_per_tick();
+    const std::uint32_t value = run.cell.*factor.number;
     if (!run.valid || !cost || value == 0) continue;
     Cell key = run.cell;
     key.seed = 0;
-    key.*factor.of = 0;
+    key.*factor.number = 0;
     auto sweep = std::find_if(sweeps.begin(), sweeps.end(), [&key](const Sweep& other) { return other.cell == key; });
     if (sweep == sweeps.end()) sweep = sweeps.insert(sweep, Sweep{key, {}});
     sweep->costs[value].push_back(*cost);
@@ -49,16 +37,16 @@ std::vector<Sweep> sweeps_over(const Factor& factor, std::span<const RunRecord> 
   return sweeps;
 }
 
-std::string sweep_name(const Factor& factor, const Sweep& sweep, bool names_rest) {
+std::string sweep_name(const GrowthFactor& factor, const Sweep& sweep, bool names_rest) {
   std::string name = sweep.cell.scheme + ", " + sweep.cell.policy;
   if (!names_rest) return name;
-  for (const Factor& other : factors) {
-    if (other.of != factor.of && sweep.cell.*other.of > 0) name += ", " + std::to_string(sweep.cell.*other.of) + " " + other.name;
+  for (const GrowthFactor& other : growth_factors) {
+    if (other.number != factor.number && sweep.cell.*other.number > 0) name += ", " + std::to_string(sweep.cell.*other.number) + " " + other.name;
   }
   return name + (sweep.cell.server_cores > 1 ? ", 2 cores" : "");
 }
 
-void add_plot(Exhibit& exhibit, const Findings& findings, const Factor& factor) {
+void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& factor) {
   const auto sweeps = sweeps_over(factor, findings.runs);
   if (sweeps.empty()) return;
   std::set<std::string> short_names;
@@ -110,11 +98,12 @@ void add_exponents(Exhibit& exhibit, std::span<const Growth> growths) {
 void add_cores(Exhibit& exhibit, std::span<const CoresRatio> ratios) {
   exhibit.html += "<h3>One core against two</h3>\n<p class=\"faint\">Both programs wherever the kernel puts them, as a multiple of the server on a processor of its own; the server has one thread. Geometric "
                   "mean over seeds, paired, with its 95 % interval.</p>\n<div class=\"scroll\"><table><thead><tr><th>clients</th><th class=\"text\">filter</th><th class=\"text\">figure</th>"
-                  "<th>ratio (95 %)</th><th class=\"text\">significant</th></tr></thead><tbody>\n";
+                  "<th>ratio (95 %)</th><th class=\"text\">difference</th></tr></thead><tbody>\n";
   for (const CoresRatio& ratio : ratios) {
+    const auto& interval = ratio.ratio.interval;
     exhibit.html += "<tr><td>" + std::to_string(ratio.cell.clients) + "</td><td class=\"text\">" + escaped(ratio.cell.scheme + ", " + ratio.cell.policy) + "</td><td class=\"text\">" +
-                    escaped(ratio.figure) + "</td><td>" + plain_number(ratio.ratio) + bounds(ratio.low, ratio.high) + "</td><td class=\"text\">" +
-                    (ratio.is_significant() ? "yes" : ratio.low ? "no significant difference" : "one pair: cannot be told") + "</td></tr>\n";
+                    escaped(ratio.figure) + "</td><td>" + plain_number(ratio.ratio.value) + (interval ? bounds(interval->low, interval->high) : "") + "</td><td class=\"text\">" +
+                    words_for(ratio.ratio.difference()) + "</td></tr>\n";
   }
   exhibit.html += "</tbody></table></div>\n<p class=\"data\">Data: server_cores.csv</p>\n";
 }
@@ -123,7 +112,7 @@ void add_cores(Exhibit& exhibit, std::span<const CoresRatio> ratios) {
 
 Exhibit growth_exhibit(const Findings& findings) {
   Exhibit exhibit{"<div class=\"plots\">\n"};
-  for (const Factor& factor : factors) add_plot(exhibit, findings, factor);
+  for (const GrowthFactor& factor : growth_factors) add_plot(exhibit, findings, factor);
   exhibit.html += "</div>\n";
   const auto growths = growths_of(findings.runs);
   const auto ratios = cores_ratios_of(findings.runs);

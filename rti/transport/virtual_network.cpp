@@ -83,17 +83,22 @@ ConnectionId VirtualEndpoint::add_line(VirtualEndpoint* peer) {
   return static_cast<ConnectionId>(lines_.size() - 1);
 }
 
+std::uint32_t VirtualEndpoint::closing(ConnectionId connection, CloseReason reason) {
+  const std::uint32_t parcel = network_.take_parcel();
+  VirtualNetwork::Parcel& told = network_.parcels_[parcel];
+  told.kind = VirtualNetwork::Kind::close;
+  told.reason = reason;
+  told.connection = connection;
+  told.receiver = this;
+  return parcel;
+}
+
 ConnectionId VirtualEndpoint::connect(const std::string& name) {
   const auto found = network_.listeners_.find(name);
   if (found == network_.listeners_.end()) {
     const ConnectionId refused = add_line(nullptr);
-    const std::uint32_t parcel = network_.take_parcel();
-    VirtualNetwork::Parcel& answer = network_.parcels_[parcel];
-    answer.kind = VirtualNetwork::Kind::close;
-    answer.reason = CloseReason::refused;
-    answer.connection = refused;
-    answer.receiver = this;
-    answer.detail = "nobody listens at virtual address '" + name + "'";
+    const std::uint32_t parcel = closing(refused, CloseReason::refused);
+    network_.parcels_[parcel].detail = "nobody listens at virtual address '" + name + "'";
     const std::int64_t there_ns = network_.model_.arrival_ns(lines_[refused].number, network_.now_ns(), 0);
     network_.dispatch(parcel, network_.model_.arrival_ns(lines_[refused].number, there_ns, 0));
     return refused;
@@ -169,13 +174,7 @@ void VirtualEndpoint::close(ConnectionId connection) {
   Line& line = lines_[connection];
   line.is_open = false;
   post(line, network_.take_parcel(), VirtualNetwork::Kind::close);
-  const std::uint32_t parcel = network_.take_parcel();
-  VirtualNetwork::Parcel& told = network_.parcels_[parcel];
-  told.kind = VirtualNetwork::Kind::close;
-  told.reason = CloseReason::closed_by_us;
-  told.connection = connection;
-  told.receiver = this;
-  inbox_.push_back(parcel);
+  inbox_.push_back(closing(connection, CloseReason::closed_by_us));
 }
 
 TransportCounters VirtualEndpoint::counters(ConnectionId connection) const { return connection < lines_.size() ? lines_[connection].counters : TransportCounters{}; }

@@ -118,6 +118,8 @@ class VirtualEndpoint final : public Transport {
     TransportCounters counters;
   };
   ConnectionId add_line(VirtualEndpoint* peer);
+  /// A parcel that tells this end why `connection` is no more; not yet on its way.
+  std::uint32_t closing(ConnectionId connection, CloseReason reason);
   void post(Line& line, std::uint32_t parcel, VirtualNetwork::Kind kind);
   void report(std::uint32_t number, TransportListener& listener);
 

@@ -60,8 +60,8 @@ TEST(Gains, ArePairedBySeedSoThatWhatBothShareCancels) {
   for (std::size_t i = 0; i < gains.size(); ++i) {
     EXPECT_EQ(gains[i].kind, kinds[i]);
     ASSERT_TRUE(gains[i].bytes && gains[i].bytes->interval);
-    EXPECT_NEAR(gains[i].bytes->times_fewer, expected[i], 1e-9);
-    EXPECT_NEAR(gains[i].bytes->interval->first, expected[i], 1e-6);  // no scatter is left
+    EXPECT_NEAR(gains[i].bytes->value, expected[i], 1e-9);
+    EXPECT_NEAR(gains[i].bytes->interval->low, expected[i], 1e-6);  // no scatter is left
   }
   EXPECT_THAT(headline_of(findings), AllOf(HasSubstr("region, on-event sends 40.0 times fewer"), HasSubstr("2.00 mm RMS against 4.00 mm")));
 }

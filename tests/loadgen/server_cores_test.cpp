@@ -29,10 +29,10 @@ TEST(ServerCores, TheRatioIsTheGeometricMeanOverPairsOfOneSeed) {
   const auto ratios = cores_ratios_of(runs);
   ASSERT_EQ(ratios.size(), 1u);
   EXPECT_EQ(ratios[0].figure, "total_us_per_tick");
-  EXPECT_EQ(ratios[0].pairs, 2u);
-  EXPECT_NEAR(ratios[0].ratio, std::exp(2 * a), 1e-12);
-  EXPECT_NEAR(std::log(*ratios[0].high) - 2 * a, std::tan(0.475 * M_PI) * a, 1e-9);
-  EXPECT_FALSE(ratios[0].is_significant());
+  EXPECT_EQ(ratios[0].ratio.pairs, 2u);
+  EXPECT_NEAR(ratios[0].ratio.value, std::exp(2 * a), 1e-12);
+  EXPECT_NEAR(std::log(ratios[0].ratio.interval->high) - 2 * a, std::tan(0.475 * M_PI) * a, 1e-9);
+  EXPECT_EQ(ratios[0].ratio.difference(), Difference::insignificant);
   EXPECT_THAT(cores_table(ratios), HasSubstr("no significant difference"));
   EXPECT_THAT(to_csv(ratios), HasSubstr("client-server,region,periodic,50,0,0,total_us_per_tick,2,1.0202,"));
 }
@@ -57,8 +57,7 @@ TEST(ServerCores, NinetyFiveOfAHundredIntervalsHoldTheRatio) {
       runs.push_back(run(1, seed, common));
       runs.push_back(run(2, seed, 0.8 * common * std::exp(noise(random))));
     }
-    const CoresRatio ratio = cores_ratios_of(runs).front();
-    held += *ratio.low <= 0.8 && 0.8 <= *ratio.high;
+    held += cores_ratios_of(runs).front().ratio.interval->contains(0.8);
   }
   EXPECT_NEAR(held / double(trials), 0.95, 4.0 * std::sqrt(0.95 * 0.05 / trials));
 }
