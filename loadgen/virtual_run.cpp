@@ -112,7 +112,8 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       cell_(cell),
       link_(nanoseconds(1e-3 * experiment.delay_ms)),
       network_(link_),
-      serving_(fom, scene, server_settings(experiment, cell, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size), [this] { return now_s(); }, [this] { return simulated_now(); }),
+      serving_(fom, scene, server_settings(experiment, cell, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+               [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {
