@@ -60,7 +60,7 @@ void Game::advance(double until) {
   spawned_.clear();
   removed_.clear();
   scored_.clear();
-  simulator_->forget_impacts();
+  simulator_->forget_events();
   do {
     play_until(next_instant(until));
     face_off_until(now());

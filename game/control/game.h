@@ -55,10 +55,10 @@ class Game {
 
   static constexpr double placement_retry = 0.1;  ///< s
 
-  /// From now on `impacts` tells of every contact; off at first, when it costs nothing.
-  void record_impacts(bool is_wanted) { simulator_->record_impacts(is_wanted); }
+  /// From now on `events` tells all that happens to a body; off at first, when it costs nothing.
+  void record_events(bool is_wanted) { simulator_->record_events(is_wanted); }
   /// Of the last `advance`, in order of time.
-  std::span<const physics::Impact> impacts() const { return simulator_->impacts(); }
+  std::span<const physics::Event> events() const { return simulator_->events(); }
 
   double now() const { return simulator_->now(); }
   const physics::Simulator& simulator() const { return *simulator_; }

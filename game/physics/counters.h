@@ -1,9 +1,18 @@
 // What a world did since it was made: the proof that what did not happen cost nothing.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace rink::physics {
+
+/// What can happen to a body; `rest` is the beginning of a rest contact, `release` its end.
+enum class EventKind : std::uint8_t { puck_puck, post, wall, puck_bat, bat_bat, goal, thrust, rest, release, hop, freeze };
+/// As they stand in files, in order of the enumeration.
+inline constexpr std::array event_kind_names{"puck_puck", "post", "wall", "puck_bat", "bat_bat", "goal", "thrust", "rest", "release", "hop", "freeze"};
+/// Whether two things met.
+constexpr bool is_impact(EventKind kind) { return kind <= EventKind::bat_bat; }
 
 /// Every count starts at 0 and only grows. Counters are not part of a world's state: cell size and queue change them, never the motion.
 struct Counters {
@@ -30,6 +39,14 @@ struct Counters {
   }
   /// Impacts of any kind.
   std::uint64_t impacts() const { return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts; }
+  std::uint64_t& of(EventKind kind);
 };
+
+/// The counter of each kind of event.
+inline constexpr std::array<std::uint64_t Counters::*, event_kind_names.size()> counter_of_kind{
+    &Counters::disc_impacts, &Counters::post_impacts, &Counters::wall_impacts, &Counters::bat_impacts, &Counters::bat_bat_impacts, &Counters::goals,
+    &Counters::thrust_changes, &Counters::rests, &Counters::releases, &Counters::hops, &Counters::freezes};
+
+inline std::uint64_t& Counters::of(EventKind kind) { return this->*counter_of_kind[static_cast<std::size_t>(kind)]; }
 
 }  // namespace rink::physics

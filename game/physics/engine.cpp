@@ -124,7 +124,7 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
     builds_[bat].thrust = acceleration;
     return;
   }
-  ++counters_.thrust_changes;
+  note(EventKind::thrust, now_, bat);
   wake(bat, now_);
   rebase_companions(bat, now_);
   builds_[bat].thrust = acceleration;
@@ -202,7 +202,7 @@ void BasicEngine<Real>::cross_cell(std::uint32_t body) {
 
 template <class Real>
 void BasicEngine<Real>::score(std::uint32_t body, Real time) {
-  ++counters_.goals;
+  note(EventKind::goal, time, body);
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   rebase(body, time);

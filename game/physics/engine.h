@@ -43,7 +43,7 @@ class BasicEngine {
   using RelativeMotion = BasicRelativeMotion<Real>;
   using EventQueue = BasicEventQueue<Real>;
   using Goal = BasicGoal<Real>;
-  using Impact = BasicImpact<Real>;
+  using Event = BasicEvent<Real>;
 
  public:
   explicit BasicEngine(const WorldSpec& spec);
@@ -136,6 +136,11 @@ class BasicEngine {
   void process(std::uint32_t body, Real time);
   void settle();
   void score(std::uint32_t body, Real time);
+  /// Counts the event, and records it if it is wanted.
+  void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
+    ++counters_.of(kind);
+    if (records_events_) events_.push_back({time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+  }
 
   // engine_state.cpp: rewriting last-event states
   void rebase(std::uint32_t body, Real time);
@@ -186,6 +191,7 @@ class BasicEngine {
   void release(std::uint32_t body, Real time);
   Real slide_time(const Hold& hold) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
+  void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
 
   // engine_cluster.cpp
   bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
@@ -219,8 +225,8 @@ class BasicEngine {
   std::vector<Real> accelerations_;
   std::optional<Goal> goal_;
   Counters counters_;
-  bool records_impacts_ = false;
-  std::vector<Impact> impacts_;
+  bool records_events_ = false;
+  std::vector<Event> events_;
 };
 using Engine = BasicEngine<double>;
 

@@ -34,7 +34,7 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   const Real pressure = std::max(thrust_max, pressing);
   if (cluster_contacts_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed)) return false;
   if (pressure <= 0.0 && given_back == 1.0) return false;
-  ++counters_.hops;
+  note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : cluster_) {
     Rhythm& rhythm = rhythms_[body];
@@ -43,7 +43,10 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   }
   may_freeze = may_freeze && rhythms_[c.body].hops % 4 == 0;
   for (const std::uint32_t body : cluster_) ++rhythms_[body].hops;
-  if (may_freeze && freeze(thrust_max)) return true;
+  if (may_freeze && freeze(thrust_max)) {
+    note(EventKind::freeze, time, c.body, c.partner);
+    return true;
+  }
   cluster_velocities_.clear();
   for (const std::uint32_t body : cluster_) cluster_velocities_.push_back(velocity_of(body));
   Real speed = 0.0;
@@ -145,7 +148,6 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
   solve_cluster(0.0);
   for (const Vector2& acceleration : cluster_velocities_)
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
-  ++counters_.freezes;
   ++jam_count_;
   for (const std::uint32_t body : cluster_) {
     Body& b = bodies_[body];

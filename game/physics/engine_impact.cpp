@@ -93,13 +93,14 @@ void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back,
 
 template <class Real>
 void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
-  if (records_impacts_) impacts_.push_back({time, BodyId{body}, is_body(p) ? std::optional(BodyId{p}) : std::nullopt});
   const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(p) && bodies_[p].kind == kind); };
-  if (!is_body(p)) ++(p >= partner::edge_left_low ? counters_.post_impacts : counters_.wall_impacts);
-  else if (is(BodyKind::post)) ++counters_.post_impacts;
-  else if (bodies_[body].kind == BodyKind::bat && bodies_[p].kind == BodyKind::bat) ++counters_.bat_bat_impacts;
-  else if (is(BodyKind::bat)) ++counters_.bat_impacts;
-  else ++counters_.disc_impacts;
+  const auto kind = [&] {
+    if (!is_body(p)) return p >= partner::edge_left_low ? EventKind::post : EventKind::wall;
+    if (is(BodyKind::post)) return EventKind::post;
+    if (!is(BodyKind::bat)) return EventKind::puck_puck;
+    return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
+  };
+  note(kind(), time, body, p);
 }
 
 template <class Real>

@@ -53,7 +53,7 @@ bool BasicEngine<Real>::can_rest(const Contact& c) const {
 /// Perfectly inelastic along the axis of the face: the groups on both sides become one.
 template <class Real>
 void BasicEngine<Real>::rest(const Contact& c, Real time) {
-  ++counters_.rests;
+  note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
   holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0});
@@ -123,7 +123,9 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
     const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
     return high - low > pull_min;
   };
-  counters_.releases += std::erase_if(holds_, is_pulled);
+  for (const Hold& hold : holds_)
+    if (is_pulled(hold)) note_release(hold, time);
+  std::erase_if(holds_, is_pulled);
   std::vector<std::uint32_t> done;
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
@@ -213,7 +215,7 @@ void BasicEngine<Real>::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold hold = holds_[i];
     if ((hold.low != body && hold.high != body) || std::min(hold.pull_time, slide_time(hold)) > time) continue;
-    ++counters_.releases;
+    note_release(hold, time);
     const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
     const std::vector<std::uint32_t> members = companions(inside, held_along(hold.axis));
     for (const std::uint32_t member : members) rebase_companions(member, time);

@@ -23,9 +23,9 @@ class ExactSimulator final : public Simulator {
   void place(BodyId puck, const Vector2& position, const Vector2& velocity) override { world_.place(puck, position, velocity); }
   std::optional<Goal> advance(double until) override { return world_.advance(until); }
 
-  void record_impacts(bool is_wanted) override { world_.record_impacts(is_wanted); }
-  std::span<const Impact> impacts() const override { return world_.impacts(); }
-  void forget_impacts() override { world_.forget_impacts(); }
+  void record_events(bool is_wanted) override { world_.record_events(is_wanted); }
+  std::span<const Event> events() const override { return world_.events(); }
+  void forget_events() override { world_.forget_events(); }
 
   const WorldSpec& spec() const override { return world_.spec(); }
   double now() const override { return world_.now(); }

@@ -28,9 +28,9 @@ class Simulator {
   virtual void place(BodyId puck, const Vector2& position, const Vector2& velocity) = 0;
   virtual std::optional<Goal> advance(double until) = 0;
 
-  virtual void record_impacts(bool is_wanted) = 0;
-  virtual std::span<const Impact> impacts() const = 0;
-  virtual void forget_impacts() = 0;
+  virtual void record_events(bool is_wanted) = 0;
+  virtual std::span<const Event> events() const = 0;
+  virtual void forget_events() = 0;
 
   virtual const WorldSpec& spec() const = 0;
   virtual double now() const = 0;

@@ -45,11 +45,11 @@ template <class Real>
 std::optional<BasicGoal<Real>> BasicWorld<Real>::advance(Real until) { return engine_->advance(until); }
 
 template <class Real>
-void BasicWorld<Real>::record_impacts(bool is_wanted) { engine_->records_impacts_ = is_wanted; }
+void BasicWorld<Real>::record_events(bool is_wanted) { engine_->records_events_ = is_wanted; }
 template <class Real>
-std::span<const BasicImpact<Real>> BasicWorld<Real>::impacts() const { return engine_->impacts_; }
+std::span<const BasicEvent<Real>> BasicWorld<Real>::events() const { return engine_->events_; }
 template <class Real>
-void BasicWorld<Real>::forget_impacts() { engine_->impacts_.clear(); }
+void BasicWorld<Real>::forget_events() { engine_->events_.clear(); }
 
 template <class Real>
 Real BasicWorld<Real>::now() const { return engine_->now_; }

@@ -15,14 +15,15 @@ namespace rink::physics {
 template <class Real>
 class BasicEngine;
 
-/// `body` hit `other` at `time` [s]; `other` is nothing for a wall or the edge of a goal.
+/// What happened to `body` and `other` at `time` [s]; `other` is nothing for a wall, the edge of a goal, and wherever one body alone is concerned.
 template <class Real>
-struct BasicImpact {
+struct BasicEvent {
   Real time = 0.0;
+  EventKind kind = EventKind::puck_puck;
   BodyId body;
   std::optional<BodyId> other;
 };
-using Impact = BasicImpact<double>;
+using Event = BasicEvent<double>;
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls give the same bits, whatever the cell size and however often
 /// advance() stops on the way. Method, proofs and limits: docs/physics.md.
@@ -52,11 +53,11 @@ class BasicWorld {
   /// changes the motion.
   std::optional<BasicGoal<Real>> advance(Real until);
 
-  /// From now on keeps a record of every impact, for observers; off at first. Never changes the motion.
-  void record_impacts(bool is_wanted);
-  /// Recorded since the last forget_impacts(), in order of time; valid until anything else is asked of the world.
-  std::span<const BasicImpact<Real>> impacts() const;
-  void forget_impacts();
+  /// From now on keeps a record of every event, for observers; off at first. Never changes the motion.
+  void record_events(bool is_wanted);
+  /// Recorded since the last forget_events(), in order of time; valid until anything else is asked of the world.
+  std::span<const BasicEvent<Real>> events() const;
+  void forget_events();
 
   Real now() const;                      ///< s
   BasicVector2<Real> position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did

@@ -11,7 +11,7 @@ namespace rink::loadgen {
 
 Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area)
     : game_(game::chosen_scene(evidence.choice)), surroundings_(area, game_.world().spec().field.length, game_.world().spec().field.width), rate_hz_(evidence.rate_hz) {
-  game_.record_impacts(true);
+  game_.record_events(true);
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
       throw game::EvidenceError("the server's evidence has keys of player " + std::to_string(event.player) + ", but its scene has " + std::to_string(game_.player_count()) + " bats");

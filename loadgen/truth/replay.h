@@ -38,7 +38,7 @@ class Replay {
   std::optional<std::uint32_t> bat_of(std::uint32_t player) const;
   std::uint32_t player_count() const { return game_.player_count(); }
   /// Contacts since the instant before.
-  std::span<const physics::Impact> impacts() const { return game_.impacts(); }
+  std::span<const physics::Event> events() const { return game_.events(); }
   std::uint64_t hash() const { return game_.hash(); }
 
  private:

@@ -155,14 +155,14 @@ class Judgement {
 
   /// A contact counts for each of its bodies that is a watched player's bat.
   void judge_contacts() {
-    for (const physics::Impact& impact : replay_.impacts()) {
-      if (impact.time <= contacts_until_s_ || impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other) continue;
+    for (const physics::Event& impact : replay_.events()) {
+      if (!physics::is_impact(impact.kind) || impact.time <= contacts_until_s_ || impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other) continue;
       for (Player& player : players_) {
         if (player.bat == impact.body.index) judge_contact(player, impact.other->index, impact.time);
         if (player.bat == impact.other->index) judge_contact(player, impact.body.index, impact.time);
       }
     }
-    if (!replay_.impacts().empty()) contacts_until_s_ = std::max(contacts_until_s_, replay_.impacts().back().time);
+    if (!replay_.events().empty()) contacts_until_s_ = std::max(contacts_until_s_, replay_.events().back().time);
   }
 
   void judge_contact(Player& player, std::uint32_t entity, double instant_s) {

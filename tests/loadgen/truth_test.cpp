@@ -260,12 +260,12 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   // Right and up at once take the bat along the diagonal into the puck that stands there.
   server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
   game::Game game(game::chosen_scene(server_.choice));
-  game.record_impacts(true);
+  game.record_events(true);
   for (const game::InputEvent& key : server_.keys) game.submit(key);
   std::uint64_t contacts = 0, with_still = 0;
   game.advance(server_.until_s - 1e-9);
-  for (const physics::Impact& impact : game.impacts()) {
-    if (!impact.other || (impact.body.index != bat && impact.other->index != bat)) continue;
+  for (const physics::Event& impact : game.events()) {
+    if (!physics::is_impact(impact.kind) || !impact.other || (impact.body.index != bat && impact.other->index != bat)) continue;
     ++contacts;
     with_still += impact.body.index == still || impact.other->index == still ? 1u : 0u;
   }

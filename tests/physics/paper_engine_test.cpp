@@ -226,6 +226,26 @@ void play_keys(Simulator& simulator, const std::vector<BodyId>& bats, double unt
   go_on(until);
 }
 
+TEST(Simulators, RecordEveryEventThatTheyCount) {
+  for (const char* engine : {"exact", "paper", "naive"}) {
+    std::vector<BodyId> bats;
+    const auto simulator = busy_rink({.engine = engine}, 0.5, bats, 4);
+    simulator->record_events(true);
+    play_keys(*simulator, bats, 20.0, 4, 0);
+    Counters seen;
+    double time = 0.0;
+    for (const Event& event : simulator->events()) {
+      ++seen.of(event.kind);
+      EXPECT_GE(event.time, time) << engine;
+      time = event.time;
+    }
+    Counters counted = simulator->counters();
+    for (std::size_t kind = 0; kind < event_kind_names.size(); ++kind)
+      EXPECT_EQ(seen.of(static_cast<EventKind>(kind)), counted.of(static_cast<EventKind>(kind))) << engine << ' ' << event_kind_names[kind];
+    EXPECT_GT(seen.impacts(), 200u) << engine;
+  }
+}
+
 TEST(SteppedEngines, GiveTheSameBitsWhereverTheyStop) {
   for (const char* engine : {"paper", "naive"})
     for (const char* integrator : integrators) {
@@ -289,11 +309,11 @@ TEST(PapersEngine, MeetsACornerTooEarlyUnlessItIsToldToRoundIt) {
   const WorldSpec spec = rink_of(4.0, 2.0);
   const auto time_of_impact = [&](const SimulatorChoice& choice) {
     const auto simulator = make_simulator(spec, choice);
-    simulator->record_impacts(true);
+    simulator->record_events(true);
     simulator->add(BatSpec{.position = {2.0, 1.0}, .half_extent = {0.1, 0.1}, .mass = 1e3});
     simulator->add(PuckSpec{.position = {2.6, 1.6}, .velocity = {-1.0, -1.0}, .radius = 0.1});  // along the diagonal, at a corner
     play(*simulator, 1.0);
-    return simulator->impacts().front().time;
+    return simulator->events().front().time;
   };
   const double truth = 0.5 - 0.1 / std::sqrt(2.0);
   EXPECT_NEAR(time_of_impact({}), truth, 1e-14);

@@ -81,7 +81,7 @@ void FrameSimulator::set_thrust(BodyId id, const Vector2& acceleration) {
   assert(bat.kind == BodyKind::bat && acceleration.allFinite());
   if (bat.force.thrust == acceleration) return;
   if (bat.is_in_play) {
-    ++counters_.thrust_changes;
+    note(EventKind::thrust, now_, id.index);
     rebase(bat, now_);
   }
   bat.force.thrust = acceleration;
@@ -162,7 +162,7 @@ void FrameSimulator::rebase(Body& body, double time) {
 
 Goal FrameSimulator::score(std::uint32_t index) {
   Body& body = bodies_[index];
-  ++counters_.goals;
+  note(EventKind::goal, body.start_time, index);
   ++body.version;
   body.is_in_play = false;
   return {body.start_time, {index}, body.start.position.x() < 0.5 * spec_.field.length ? End::left : End::right};
@@ -186,14 +186,20 @@ void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2
   other.start.velocity -= impulse * other.inverse_mass * normal;
 }
 
+void FrameSimulator::note(EventKind kind, double time, std::uint32_t body, Partner other) {
+  ++counters_.of(kind);
+  if (records_events_) events_.push_back({time, kind, {body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+}
+
 void FrameSimulator::count_impact(std::uint32_t body, Partner partner, double time) {
-  if (records_impacts_) impacts_.push_back({time, BodyId{body}, is_body(partner) ? std::optional(BodyId{partner}) : std::nullopt});
   const auto is = [&](BodyKind kind) { return bodies_[body].kind == kind || (is_body(partner) && bodies_[partner].kind == kind); };
-  if (!is_body(partner)) ++(partner == wall ? counters_.wall_impacts : counters_.post_impacts);
-  else if (is(BodyKind::post)) ++counters_.post_impacts;
-  else if (bodies_[body].kind == BodyKind::bat && bodies_[partner].kind == BodyKind::bat) ++counters_.bat_bat_impacts;
-  else if (is(BodyKind::bat)) ++counters_.bat_impacts;
-  else ++counters_.disc_impacts;
+  const auto kind = [&] {
+    if (!is_body(partner)) return partner == wall ? EventKind::wall : EventKind::post;
+    if (is(BodyKind::post)) return EventKind::post;
+    if (!is(BodyKind::bat)) return EventKind::puck_puck;
+    return is(BodyKind::puck) ? EventKind::puck_bat : EventKind::bat_bat;
+  };
+  note(kind(), time, body, partner);
 }
 
 }  // namespace rink::physics::paper

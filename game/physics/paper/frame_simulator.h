@@ -22,9 +22,9 @@ class FrameSimulator : public Simulator {
   void place(BodyId puck, const Vector2& position, const Vector2& velocity) override;
   std::optional<Goal> advance(double until) override;
 
-  void record_impacts(bool is_wanted) override { records_impacts_ = is_wanted; }
-  std::span<const Impact> impacts() const override { return impacts_; }
-  void forget_impacts() override { impacts_.clear(); }
+  void record_events(bool is_wanted) override { records_events_ = is_wanted; }
+  std::span<const Event> events() const override { return events_; }
+  void forget_events() override { events_.clear(); }
 
   const WorldSpec& spec() const override { return spec_; }
   double now() const override { return now_; }
@@ -103,13 +103,14 @@ class FrameSimulator : public Simulator {
   BodyId add(Body body);
   void begin_frame();
   void finish_frame();
+  void note(EventKind kind, double time, std::uint32_t body, Partner other = wall);
   void count_impact(std::uint32_t body, Partner partner, double time);
   bool is_free(const Vector2& centre, const Vector2& half_extent, double radius) const;
 
   std::uint64_t frame_ = 0;
   bool is_begun_ = false;
-  bool records_impacts_ = false;
-  std::vector<Impact> impacts_;
+  bool records_events_ = false;
+  std::vector<Event> events_;
 };
 
 }  // namespace rink::physics::paper

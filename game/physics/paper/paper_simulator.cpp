@@ -17,7 +17,7 @@ using Box = collision::Box<double>;
 }  // namespace
 
 /// A heap's order: the event that comes first is the greatest.
-bool PaperSimulator::is_later(const Event& a, const Event& b) { return std::tie(a.time, a.body, a.partner) > std::tie(b.time, b.body, b.partner); }
+bool PaperSimulator::is_later(const Meeting& a, const Meeting& b) { return std::tie(a.time, a.body, a.partner) > std::tie(b.time, b.body, b.partner); }
 
 Extent PaperSimulator::swept_box(const Body& body) const {
   const Vector2 extent = extent_of(body);
@@ -32,7 +32,7 @@ Disc PaperSimulator::swept_circle(const Body& body) const {
 
 void PaperSimulator::begin() {
   grid_.clear(spec_.field, body_count());
-  events_.clear();
+  meetings_.clear();
   for (std::uint32_t index = 0; index < bodies_.size(); ++index)
     if (bodies_[index].is_in_play && !can_move(bodies_[index])) grid_.insert(index, swept_box(bodies_[index]));
   for (std::uint32_t index = 0; index < bodies_.size(); ++index)
@@ -132,52 +132,52 @@ void PaperSimulator::test_goal_edges(std::uint32_t index) {
 
 void PaperSimulator::expect(std::uint32_t body, Partner partner, double start, const collision::Contact<double>& contact) {
   const double time = std::min(start + contact.time, frame_end());
-  events_.push_back({time, body, partner, bodies_[body].version, is_body(partner) ? bodies_[partner].version : 0, contact.normal});
-  std::push_heap(events_.begin(), events_.end(), is_later);
+  meetings_.push_back({time, body, partner, bodies_[body].version, is_body(partner) ? bodies_[partner].version : 0, contact.normal});
+  std::push_heap(meetings_.begin(), meetings_.end(), is_later);
 }
 
-bool PaperSimulator::is_stale(const Event& event) const {
-  return bodies_[event.body].version != event.body_version || (is_body(event.partner) && bodies_[event.partner].version != event.partner_version);
+bool PaperSimulator::is_stale(const Meeting& meeting) const {
+  return bodies_[meeting.body].version != meeting.body_version || (is_body(meeting.partner) && bodies_[meeting.partner].version != meeting.partner_version);
 }
 
 std::optional<Goal> PaperSimulator::play(double until) {
-  while (!events_.empty() && events_.front().time <= until) {
-    const Event event = events_.front();
-    std::pop_heap(events_.begin(), events_.end(), is_later);
-    events_.pop_back();
-    if (is_stale(event)) {
+  while (!meetings_.empty() && meetings_.front().time <= until) {
+    const Meeting meeting = meetings_.front();
+    std::pop_heap(meetings_.begin(), meetings_.end(), is_later);
+    meetings_.pop_back();
+    if (is_stale(meeting)) {
       ++counters_.stale_events;
       continue;
     }
-    now_ = std::max(now_, event.time);
-    if (event.partner != goal_line) {
-      meet(event);
+    now_ = std::max(now_, meeting.time);
+    if (meeting.partner != goal_line) {
+      meet(meeting);
       continue;
     }
-    rebase(bodies_[event.body], event.time);
-    return score(event.body);
+    rebase(bodies_[meeting.body], meeting.time);
+    return score(meeting.body);
   }
   return std::nullopt;
 }
 
 /// Rolls those who meet back from the frame's end to the time of impact, responds, and spends the remainder.
-void PaperSimulator::meet(const Event& event) {
-  Body& body = bodies_[event.body];
-  Body* const other = is_body(event.partner) && bodies_[event.partner].inverse_mass > 0.0 ? &bodies_[event.partner] : nullptr;
-  rebase(body, event.time);
-  if (other != nullptr) rebase(*other, event.time);
+void PaperSimulator::meet(const Meeting& meeting) {
+  Body& body = bodies_[meeting.body];
+  Body* const other = is_body(meeting.partner) && bodies_[meeting.partner].inverse_mass > 0.0 ? &bodies_[meeting.partner] : nullptr;
+  rebase(body, meeting.time);
+  if (other != nullptr) rebase(*other, meeting.time);
   bool is_stop = body.is_stopped || ++body.impacts > impact_max;
   if (other != nullptr) is_stop = other->is_stopped || ++other->impacts > impact_max || is_stop;
   if (is_stop) {
     body.is_stopped = true;
     if (other != nullptr) other->is_stopped = true;
   } else {
-    respond(event.body, event.partner, event.normal, event.time);
+    respond(meeting.body, meeting.partner, meeting.normal, meeting.time);
   }
   plan(body);
   if (other != nullptr) plan(*other);
-  turned(event.body);
-  if (other != nullptr) turned(event.partner);
+  turned(meeting.body);
+  if (other != nullptr) turned(meeting.partner);
 }
 
 }  // namespace rink::physics::paper

@@ -19,14 +19,14 @@ class PaperSimulator final : public FrameSimulator {
   static constexpr std::uint32_t impact_max = 20;
 
  private:
-  struct Event {
+  struct Meeting {
     double time;
     std::uint32_t body;
     Partner partner;
     std::uint32_t body_version, partner_version;
     Vector2 normal;  ///< from the partner to the body
   };
-  static bool is_later(const Event& a, const Event& b);
+  static bool is_later(const Meeting& a, const Meeting& b);
 
   void begin() override;
   void turned(std::uint32_t body) override;
@@ -42,12 +42,12 @@ class PaperSimulator final : public FrameSimulator {
   void test_plane(std::uint32_t body, const collision::Plane<double>& plane);
   void test_goal_edges(std::uint32_t body);
   void expect(std::uint32_t body, Partner partner, double start, const collision::Contact<double>& contact);
-  bool is_stale(const Event& event) const;
-  void meet(const Event& event);
+  bool is_stale(const Meeting& meeting) const;
+  void meet(const Meeting& meeting);
 
   Corners corners_;
   FrameGrid grid_;
-  std::vector<Event> events_;  ///< of this frame: a heap, earliest first
+  std::vector<Meeting> meetings_;  ///< of this frame: a heap, earliest first
 };
 
 }  // namespace rink::physics::paper
