@@ -24,9 +24,9 @@ MaybeContact<Real> time_point_meets_plane(const Given<Vector<Real>>& point, cons
 template <class Real>
 MaybeContact<Real> time_point_meets_edge(const Given<Vector<Real>>& point, const Given<Vector<Real>>& velocity, const Edge<Real>& edge, Given<Real> limit = never<Real>) {
   const Vector<Real> along = edge.to - edge.from, from = edge.from - point, to = edge.to - point;
-  const Real gap = turn<Real>(along, from), closing = turn<Real>(along, velocity);  // both times the edge's length
+  const Real gap = cross<Real>(along, from), closing = cross<Real>(along, velocity);  // both times the edge's length
   if (!(closing > Real(0)) || gap < Real(0)) return std::nullopt;
-  if (turn<Real>(velocity, from) < Real(0) || turn<Real>(velocity, to) > Real(0)) return std::nullopt;
+  if (cross<Real>(velocity, from) < Real(0) || cross<Real>(velocity, to) > Real(0)) return std::nullopt;
   const Real time = gap / closing;
   if (time > limit) return std::nullopt;
   return Contact<Real>{time, Vector<Real>(along.y(), -along.x()) / along.norm()};
@@ -60,7 +60,7 @@ MaybeContact<Real> time_disc_meets_rounded_box(const Disc<Real>& disc, const Giv
 }
 
 /// The same with sharp corners: the disc's centre against the box's four edges, moved outwards by the radius until they meet again. It errs at corners only: too early by up
-/// to (sqrt(2) - 1) radii, with the normal of an edge, and sometimes where there is no contact at all (docs/collision.md, "Sharp corners"). For comparison.
+/// to a radius of flight, with a normal up to a right angle off, and sometimes where there is no contact at all (docs/collision.md, "Sharp corners"). For comparison.
 template <class Real>
 MaybeContact<Real> time_disc_meets_sharp_box(const Disc<Real>& disc, const Given<Vector<Real>>& disc_velocity, const Box<Real>& box, const Given<Vector<Real>>& box_velocity,
                                              Given<Real> limit = never<Real>) {

@@ -7,29 +7,17 @@
 #include <optional>
 
 #include "game/physics/collision/shapes.h"
+#include "game/physics/impact_time.h"
 
 namespace rink::physics::collision {
-
-/// The z component of a x b.
-template <class Real>
-Real turn(const Vector<Real>& a, const Vector<Real>& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The point at `offset` against the disc of radius `reach`, above 0.
 template <class Real>
 MaybeContact<Real> meet_disc(const Vector<Real>& offset, const Vector<Real>& velocity, Real reach, Real limit) {
   assert(reach > Real(0));
-  const Real closing = -offset.dot(velocity);
-  if (!(closing > Real(0))) return std::nullopt;
-  const Real gap = offset.squaredNorm() - reach * reach;
-  if (gap <= Real(0)) return Contact<Real>{Real(0), offset.normalized()};
-  const Real miss = turn<Real>(offset, velocity), speed_reach = velocity.norm() * reach;
-  const Real discriminant = (speed_reach - miss) * (speed_reach + miss);
-  if (discriminant < Real(0)) return std::nullopt;
-  const Real time = gap / (closing + std::sqrt(discriminant));
-  if (time > limit) return std::nullopt;
-  return Contact<Real>{time, (offset + velocity * time).normalized()};
+  const std::optional<Real> time = time_to_touch<Real>(offset, velocity, reach, limit);
+  if (!time || *time > limit) return std::nullopt;
+  return Contact<Real>{*time, (offset + velocity * *time).normalized()};
 }
 
 /// When a point enters a box, and through which face: the one across `axis`.
