@@ -35,7 +35,7 @@ std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& 
   if (experiment.keys == KeySource::live) return {};
   game::Playing playing(scene, {experiment.players}, cell.seed, until_s);
   playing.advance(until_s);
-  return playing.events();
+  return playing.keys();
 }
 
 }  // namespace

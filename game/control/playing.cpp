@@ -35,15 +35,26 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
   std::stable_sort(seats_.begin(), seats_.end(), [](const Seat& a, const Seat& b) { return a.phase < b.phase; });
 }
 
+void Playing::record_events(bool is_wanted) {
+  records_events_ = is_wanted;
+  game_.record_events(is_wanted);
+}
+
+void Playing::play_until(double instant) {
+  game_.advance(instant);
+  if (records_events_) happened_.insert(happened_.end(), game_.events().begin(), game_.events().end());
+}
+
 void Playing::advance(double until) {
+  happened_.clear();
   for (; !seats_.empty(); ++turn_) {
     Seat& seat = seats_[turn_ % seats_.size()];
     const double instant = static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
     if (instant > until) break;
-    game_.advance(instant);
+    play_until(instant);
     decide(seat, instant);
   }
-  game_.advance(until);
+  play_until(until);
 }
 
 void Playing::decide(Seat& seat, double instant) {
@@ -84,7 +95,7 @@ void Playing::press(Seat& seat, KeysHeld wanted, double instant) {
   seat.held = wanted;
 }
 
-std::vector<InputEvent> Playing::events() const {
+std::vector<InputEvent> Playing::keys() const {
   std::vector<InputEvent> all;
   std::merge(planned_.begin(), planned_.end(), decided_.begin(), decided_.end(), std::back_inserter(all), is_earlier);
   std::erase_if(all, [this](const InputEvent& event) { return event.time > game_.now(); });

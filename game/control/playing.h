@@ -23,8 +23,11 @@ class Playing {
   void advance(double until);
 
   const Game& game() const { return game_; }
+  /// As Game's: from now on `events` tells all that happens to a body, of the last `advance`.
+  void record_events(bool is_wanted);
+  std::span<const physics::Event> events() const { return happened_; }
   /// All that was pressed up to now(), ordered by time, then player.
-  std::vector<InputEvent> events() const;
+  std::vector<InputEvent> keys() const;
 
  private:
   struct Seat {
@@ -36,6 +39,7 @@ class Playing {
     std::uint64_t decisions = 0;
   };
 
+  void play_until(double instant);
   void decide(Seat& seat, double instant);
   void look_about(Seat& seat, const Vector2& from, double instant);
   void locate_pucks(double instant);
@@ -52,6 +56,8 @@ class Playing {
   };
   std::vector<Located> located_;  ///< all pucks in play, where they were at located_s_
   double located_s_ = -1.0;
+  bool records_events_ = false;
+  std::vector<physics::Event> happened_;
 };
 
 }  // namespace rink::game

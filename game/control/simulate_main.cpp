@@ -1,35 +1,37 @@
 // rink simulate: physics and rules alone, no network and no clock but the one that times it.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
-#include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/playing.h"
+#include "game/control/simulate_progress.h"
+#include "game/control/simulate_report.h"
 #include "game/model/scene_file.h"
 
 namespace {
 
 using namespace rink;
-using Json = nlohmann::ordered_json;
 
 constexpr int bad_input = 2;
+constexpr double frames_max = 1e12;
 
 struct Options {
-  std::string scene, keys, states, summary, record;
+  std::string scene, keys, states, events, summary, record;
   std::vector<std::string> players;
   double until = 0.0;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint32_t> bats;
+  physics::SimulatorChoice engine;
+  bool has_integrator = false, has_dt = false;
 };
-
-const char* kind_name(physics::BodyKind kind) { return kind == physics::BodyKind::puck ? "puck" : kind == physics::BodyKind::bat ? "bat" : "post"; }
 
 game::Scene scene_of(const Options& options) {
   game::Scene scene = game::load_scene(options.scene);
@@ -60,89 +62,85 @@ void close(std::ofstream& stream, const std::string& file) {
   if (!stream) throw game::SceneError(file + ": cannot be written to its end");
 }
 
-void write_states(std::ostream& stream, const game::Game& game) {
-  stream << "kind,id,x,y,vx,vy\n";
-  stream.precision(17);
-  for (const game::Entity& entity : game.entities()) {
-    const game::Vector2 position = game.position(entity.id), velocity = game.velocity(entity.id);
-    stream << kind_name(entity.kind) << ',' << entity.id.index << ',' << position.x() << ',' << position.y() << ',' << velocity.x() << ',' << velocity.y() << '\n';
-  }
-}
+/// Where results go. All files are open before the first step.
+struct Outputs {
+  explicit Outputs(const Options& options) : states(opened(options.states)), events(opened(options.events)), summary(opened(options.summary)), record(opened(options.record)) {}
+  std::ofstream states, events, summary, record;
+};
 
-Json summary_of(const game::Game& game, double wall_s) {
-  const physics::Counters counters = game.simulator().counters();
-  const physics::Vector2 momentum = game.simulator().momentum();
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, game.hash());
-  return {{"time", game.now()},
-          {"events", counters.events()},
-          {"collisions", counters.impacts()},
-          {"events_by_kind",
-           {{"puck_puck", counters.disc_impacts},
-            {"post", counters.post_impacts},
-            {"wall", counters.wall_impacts},
-            {"puck_bat", counters.bat_impacts},
-            {"bat_bat", counters.bat_bat_impacts},
-            {"goal", counters.goals},
-            {"thrust", counters.thrust_changes},
-            {"rest", counters.rests},
-            {"release", counters.releases},
-            {"hop", counters.hops},
-            {"freeze", counters.freezes}}},
-          {"kinetic_energy", game.simulator().kinetic_energy()},
-          {"momentum_x", momentum.x()},
-          {"momentum_y", momentum.y()},
-          {"goals_left", game.score().left},
-          {"goals_right", game.score().right},
-          {"is_over", game.is_over()},
-          {"hash", hash},
-          {"wall_s", wall_s}};
-}
-
-/// `played` is a Game or a Playing.
+/// Goes in strides of about a tenth of a second, so that progress is told and events are written as they come. Where a game stops on the way changes nothing in it.
+/// `played` is a Game or a Playing, `game` the game itself. Answers how long it took [s].
 template <class Played>
-double advance_timed(Played& played, double until) {
+double play(Played& played, const game::Game& game, const Options& options, std::ofstream& events) {
+  constexpr double stride_least_s = 0.05, stride_most_s = 0.2;
   const auto start = std::chrono::steady_clock::now();
-  played.advance(until);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto passed_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  game::SimulateProgress progress(std::cerr, isatty(STDERR_FILENO) != 0, options.until);
+  if (!options.events.empty()) played.record_events(true), game::write_events_heading(events);
+  double stride = std::max(options.until / 1024.0, 1e-9), before_s = 0.0;
+  do {
+    played.advance(std::min(options.until, game.now() + stride));
+    if (!options.events.empty()) game::write_events(events, played.events());
+    const double after_s = passed_s();
+    if (after_s - before_s < stride_least_s) stride *= 2.0;
+    if (after_s - before_s > stride_most_s) stride = std::max(stride / 2.0, 1e-9 * options.until);
+    before_s = after_s;
+    progress.reached(game.now(), game.simulator().counters().events(), after_s);
+  } while (game.now() < options.until);
+  progress.clear();
+  return passed_s();
 }
 
-void write_results(const Options& options, const game::Game& game, double wall_s, std::ofstream& states, std::ofstream& summary) {
-  if (!options.states.empty()) write_states(states, game);
-  (options.summary.empty() ? std::cout : summary) << summary_of(game, wall_s).dump(2) << '\n';
-  close(states, options.states);
-  close(summary, options.summary);
+void write_results(const Options& options, const game::Game& game, double wall_s, Outputs& outputs) {
+  if (!options.states.empty()) game::write_states(outputs.states, game);
+  (options.summary.empty() ? std::cout : outputs.summary) << game::summary_of(game, options.engine, wall_s) << '\n';
+  close(outputs.states, options.states);
+  close(outputs.events, options.events);
+  close(outputs.summary, options.summary);
 }
 
 void simulate(const Options& options) {
   const game::Scene scene = scene_of(options);
-  std::ofstream states = opened(options.states), summary = opened(options.summary), record = opened(options.record);
+  Outputs outputs(options);
   if (options.players.empty()) {
-    game::Game game(scene);
+    game::Game game(scene, options.engine);
     submit_keys(game, scene, options.keys);
-    write_results(options, game, advance_timed(game, options.until), states, summary);
-    return;
+    return write_results(options, game, play(game, game, options, outputs.events), outputs);
   }
-  game::Playing playing(scene, options.players, scene.seed, options.until);
-  write_results(options, playing.game(), advance_timed(playing, options.until), states, summary);
+  game::Playing playing(scene, options.players, scene.seed, options.until, options.engine);
+  write_results(options, playing.game(), play(playing, playing.game(), options, outputs.events), outputs);
   if (options.record.empty()) return;
   game::KeyLog log = game::key_log_for(scene);
-  log.events = playing.events();
-  game::write_key_log(record, log);
-  close(record, options.record);
+  log.events = playing.keys();
+  game::write_key_log(outputs.record, log);
+  close(outputs.record, options.record);
+}
+
+/// What is wrong with the engine that was asked for, if anything.
+void require_engine(const Options& options) {
+  if (const auto objection = physics::objection(options.engine)) throw game::SceneError(*objection);
+  if (options.engine.engine == "exact" && (options.has_integrator || options.has_dt))
+    throw game::SceneError(std::string(options.has_dt ? "--dt" : "--integrator") + " is for the engines paper and naive: the exact engine has neither frames nor integrators");
+  const double frames = options.until / options.engine.dt;
+  if (options.engine.engine != "exact" && frames > frames_max)
+    throw game::SceneError("--until " + std::to_string(options.until) + " would take more than 1e12 frames of --dt: expected longer frames or less time");
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 std::string allowed_players() {
-  std::string names = "random";
-  for (const std::string& name : game::player_kinds()) names += ", " + name;
-  return names;
+  return "random, " + listed(game::player_kinds());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Advances a scene exactly, without a network, and writes what became of it.", "rink simulate");
+  CLI::App app("Advances a scene without a network, exactly or in frames, and writes what became of it.", "rink simulate");
   app.add_option("scene", options.scene, "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")->required();
   app.add_option("--until", options.until, "simulated time at which to stop [s]")->required()->check([](const std::string& text) -> std::string {
     double until = 0.0;
@@ -157,11 +155,19 @@ int main(int argc, char** argv) {
   app.add_option("--record", options.record, "write what the players pressed to this key log, which --keys and rink serve --keys play again")->needs(players);
   app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)");
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density (default: as it is)");
+  app.add_option("--engine", options.engine.engine, "what moves the bodies: " + listed(physics::engine_names()) + " (docs/physics.md, docs/paper-engine.md)")->capture_default_str();
+  CLI::Option* integrator =
+      app.add_option("--integrator", options.engine.integrator, "of the engines paper and naive: " + listed(physics::integrator_names()))->capture_default_str();
+  CLI::Option* dt = app.add_option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")->capture_default_str();
   app.add_option("--states", options.states, "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
-  app.add_option("--summary", options.summary, "write events, energy, momentum and hash to this JSON file (default: standard output)");
-  app.footer("Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate match --players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 bad scene, key log or flag.");
+  app.add_option("--events", options.events, "write every event to this CSV file: time,kind,body,other");
+  app.add_option("--summary", options.summary, "write counts, energies, momentum, overlap and hash to this JSON file (default: standard output)");
+  app.footer("Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd --until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match --players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 bad scene, key log or flag.");
   try {
     app.parse(argc, argv);
+    options.has_integrator = integrator->count() > 0;
+    options.has_dt = dt->count() > 0;
+    require_engine(options);
     simulate(options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;

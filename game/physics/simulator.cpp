@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <sstream>
 
 #include "game/physics/paper/naive_simulator.h"
 #include "game/physics/paper/paper_simulator.h"
@@ -54,6 +55,12 @@ class ExactSimulator final : public Simulator {
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -72,7 +79,7 @@ const std::vector<std::string>& integrator_names() { return paper::integrator_na
 std::optional<std::string> objection(const SimulatorChoice& choice) {
   if (!is_among(engine_names(), choice.engine)) return "the engine " + choice.engine + " is unknown: expected one of " + listed(engine_names());
   if (!is_among(integrator_names(), choice.integrator)) return "the integrator " + choice.integrator + " is unknown: expected one of " + listed(integrator_names());
-  if (!std::isfinite(choice.dt) || choice.dt <= 0.0) return "a frame of " + std::to_string(choice.dt) + " s: expected a finite length above 0 s";
+  if (!std::isfinite(choice.dt) || choice.dt <= 0.0) return "frames of " + text_of(choice.dt) + " s: expected a finite length above 0 s";
   return std::nullopt;
 }
 

@@ -69,10 +69,10 @@ TEST(Playing, TheRecordedKeysGiveTheSameGameAgainBitForBit) {
     Playing playing(scene, {kind, "random"}, 3, 4.0);
     playing.advance(4.0);
     Game again(scene);
-    for (const InputEvent& event : playing.events()) again.submit(event);
+    for (const InputEvent& event : playing.keys()) again.submit(event);
     again.advance(4.0);
     EXPECT_EQ(again.hash(), playing.game().hash()) << kind;
-    EXPECT_GT(playing.events().size(), 12u) << kind;
+    EXPECT_GT(playing.keys().size(), 12u) << kind;
   }
 }
 
@@ -80,7 +80,7 @@ TEST(Playing, TheSameSeedGivesTheSameKeysAndAnotherSeedOthers) {
   const auto keys = [](const std::string& kind, std::uint64_t seed) {
     Playing playing(small_crowd(12, 5), {kind}, seed, 3.0);
     playing.advance(3.0);
-    return playing.events();
+    return playing.keys();
   };
   for (const std::string& kind : player_kinds()) {
     EXPECT_TRUE(keys(kind, 1) == keys(kind, 1)) << kind;
@@ -94,7 +94,7 @@ TEST(Playing, WhereItStopsOnTheWayChangesNothing) {
   once.advance(3.0);
   for (int step = 1; step <= 90; ++step) often.advance(step / 30.0);
   EXPECT_EQ(once.game().hash(), often.game().hash());
-  EXPECT_TRUE(once.events() == often.events());
+  EXPECT_TRUE(once.keys() == often.keys());
 }
 
 /// A bat alone in the world, moved by a player's keys: what the mobility models promise holds for one who is not in others' way.

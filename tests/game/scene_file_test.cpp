@@ -102,6 +102,16 @@ TEST(SceneFile, RefusesMissingKeys) {
   EXPECT_THAT(refusal_in_field("[[puck]]\nradius = 0.1\n"), AllOf(HasSubstr("bad.toml:4"), HasSubstr("position")));
 }
 
+TEST(SceneFile, RefusesImpossiblePitchesByLine) {
+  for (const std::string value : {"0.0", "-2.0", "nan", "inf", "-inf"}) {
+    EXPECT_THAT(refusal("[field]\nlength = " + value + "\nwidth = 2.0\n"), AllOf(HasSubstr("bad.toml:2"), HasSubstr("field.length is " + value), HasSubstr("above 0")));
+    EXPECT_THAT(refusal("[field]\nlength = 4.0\nwidth = " + value + "\n"), AllOf(HasSubstr("bad.toml:3"), HasSubstr("field.width is " + value), HasSubstr("above 0")));
+  }
+  for (const std::string value : {"-0.5", "2.1", "nan", "inf"})
+    EXPECT_THAT(refusal_in_field("goal_width = " + value + "\n"), AllOf(HasSubstr("bad.toml:4"), HasSubstr("field.goal_width is " + value), HasSubstr("from 0 to 2")));
+  EXPECT_THAT(refusal("[field]\nlength = 0.1\nwidth = 0.05\n[[puck]]\nposition = [0.05, 0.025]\n"), AllOf(HasSubstr("bad.toml:4"), HasSubstr("not wholly within the field of 0.1 m x 0.05 m")));
+}
+
 struct BadValue {
   const char* text;
   const char* line;
@@ -135,6 +145,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = 0.0\n", "bad.toml:6", "puck.radius is 0", "above 0"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = -1.0\n", "bad.toml:6", "puck.mass is -1", "above 0"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = \"big\"\n", "bad.toml:6", "puck.radius is 'big'", "a number"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = nan\n", "bad.toml:6", "puck.radius is nan", "above 0"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = -0.04\n", "bad.toml:6", "puck.radius is -0.04", "above 0"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = 0.0\n", "bad.toml:6", "puck.mass is 0", "above 0"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = nan\n", "bad.toml:6", "puck.mass is nan", "above 0"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nvelocity = [0.0, nan]\n", "bad.toml:6", "puck.velocity", "finite"},
+        BadValue{"[[puck]]\nposition = [1.0, -inf]\n", "bad.toml:5", "puck.position", "two numbers"},
+        BadValue{"[[puck]]\nposition = [1.0, -1.0]\n", "bad.toml:4", "puck-0 at [1, -1]", "not wholly within the field"},
+        BadValue{"[[post]]\nposition = [1.0, 1.0]\nradius = -0.1\n", "bad.toml:6", "post.radius is -0.1", "from 0 up"},
+        BadValue{"[[post]]\nposition = [1.0, 2.5]\nradius = 0.1\n", "bad.toml:4", "post-0", "not wholly within the field"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [-0.1, 0.1]\n", "bad.toml:6", "bat.half_extent", "above 0"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, nan]\n", "bad.toml:6", "bat.half_extent", "above 0"},
+        BadValue{"[[bat]]\nposition = [2.0, 1.0]\nhalf_extent = [0.1, 1.1]\n", "bad.toml:4", "bat-0", "not wholly within the field"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = nan\n", "bad.toml:7", "bat.thrust is nan", "from 0 up"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nmass = -0.5\n", "bad.toml:7", "bat.mass is -0.5", "above 0"},
+        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nradius = 0.0\n", "bad.toml:7", "population.radius is 0", "above 0"},
+        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmass = nan\n", "bad.toml:7", "population.mass is nan", "above 0"},
+        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmean_speed = -1.0\n", "bad.toml:7", "population.mean_speed is -1", "from 0 up"},
+        BadValue{"[[population]]\nkind = \"puck\"\ndensity = inf\n", "bad.toml:6", "population.density is inf", "from 0 up"},
         BadValue{"[[puck]]\nposition = [3.99, 1.0]\n", "bad.toml:4", "puck-0", "not wholly within the field of 4 m x 2 m"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\n[[puck]]\nposition = [1.05, 1.0]\n", "bad.toml:6", "puck-1", "overlaps puck-0"},
         BadValue{"[[post]]\nposition = [1.0, 1.0]\nradius = 0.1\n[[bat]]\nposition = [1.1, 1.0]\nhalf_extent = [0.1, 0.1]\n", "bad.toml:7", "bat-0", "overlaps post-0"},

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
+#include "game/control/simulate_progress.h"
 #include "rink_scenes.h"
 
 namespace rink::game {
@@ -62,7 +64,80 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   EXPECT_EQ(text_of(file("states.csv")), states.str());
   const std::string summary = text_of(file("summary.json"));
   EXPECT_THAT(summary, HasSubstr(hash.str()));
-  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "hash", "wall_s"}) EXPECT_THAT(summary, HasSubstr('"' + std::string(key) + "\":"));
+  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
+                          "evaluations"})
+    EXPECT_THAT(summary, HasSubstr('"' + std::string(key) + "\":"));
+}
+
+/// The lines of a file without its heading.
+std::vector<std::string> rows_of(const std::string& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(stream, line);) rows.push_back(line);
+  rows.erase(rows.begin());
+  return rows;
+}
+
+TEST_F(SimulateCommand, WritesALineForEveryEventThatTheSummaryCounts) {
+  for (const std::string engine : {"exact", "paper", "naive"}) {
+    ASSERT_EQ(run("crowd --bats 5 --seed 9 --players chaser --until 4 --engine " + engine + " --events " + file("events.csv")), 0) << said_;
+    const std::vector<std::string> rows = rows_of(file("events.csv"));
+    const std::string summary = text_of(file("out"));
+    for (const char* kind : physics::event_kind_names) {
+      const auto count = std::count_if(rows.begin(), rows.end(), [&](const std::string& row) { return row.find(',' + std::string(kind) + ',') != std::string::npos; });
+      const std::string heading = '"' + std::string(kind) + "\": ";
+      ASSERT_THAT(summary, HasSubstr(heading)) << engine;
+      EXPECT_EQ(std::stol(summary.substr(summary.find(heading) + heading.size())), count) << engine << ' ' << kind;
+    }
+    EXPECT_GT(rows.size(), 50u) << engine;
+  }
+}
+
+TEST_F(SimulateCommand, PlaysTheSameKeysOnEveryEngine) {
+  std::ofstream(file("bats.toml")) << "[field]\nlength = 9.0\nwidth = 9.0\n[drag]\nbats = 1.0\n[[bat]]\nname = \"b\"\nposition = [4.0, 4.0]\nhalf_extent = [0.1, 0.1]\n"
+                                      "[[key]]\ntime = 0.1\nbat = \"b\"\nkey = \"up\"\nis_down = true\n[[key]]\ntime = 0.55\nbat = \"b\"\nkey = \"up\"\nis_down = false\n";
+  const auto height = [&](const std::string& flags) {
+    EXPECT_EQ(run(file("bats.toml") + " --until 1 --states " + file("states.csv") + flags), 0) << said_;
+    std::istringstream row(rows_of(file("states.csv")).front());
+    std::string value;
+    for (int column = 0; column < 4; ++column) std::getline(row, value, ',');
+    return std::stod(value);
+  };
+  const double exact = height("");
+  EXPECT_GT(exact, 5.0);
+  EXPECT_NEAR(height(" --engine paper"), exact, 0.1);
+  EXPECT_NEAR(height(" --engine naive --integrator verlet --dt 0.01"), exact, 1e-3);
+  EXPECT_NEAR(height(" --engine paper --integrator rk4 --dt 0.01"), exact, 1e-9);
+}
+
+TEST_F(SimulateCommand, NamesTheAllowedEnginesAndIntegratorsAndRefusesEndlessFrames) {
+  EXPECT_EQ(run("match --until 1 --engine box2d"), 2);
+  EXPECT_THAT(said_, HasSubstr("the engine box2d is unknown: expected one of exact, paper, naive"));
+  EXPECT_EQ(run("match --until 1 --engine paper --integrator rk5"), 2);
+  EXPECT_THAT(said_, HasSubstr("the integrator rk5 is unknown: expected one of euler, semi_implicit, verlet, rk4"));
+  for (const std::string dt : {"0", "-0.01", "nan", "inf"}) {
+    EXPECT_EQ(run("match --until 1 --engine paper --dt " + dt), 2) << dt;
+    EXPECT_THAT(said_, HasSubstr("expected a finite length above 0 s")) << dt;
+  }
+  EXPECT_EQ(run("match --until 1 --engine naive --dt 1e-300"), 2);
+  EXPECT_THAT(said_, HasSubstr("frames"));
+  EXPECT_EQ(run("match --until 1 --dt 0.01"), 2);
+  EXPECT_THAT(said_, HasSubstr("--dt is for the engines paper and naive"));
+  EXPECT_EQ(run("match --until 1 --integrator rk4"), 2);
+  EXPECT_THAT(said_, HasSubstr("--integrator is for the engines paper and naive"));
+}
+
+TEST(SimulateProgress, SaysNothingOfShortRunsALineNowAndThenOtherwiseAndOverwritesItOnATerminal) {
+  std::ostringstream file, terminal;
+  SimulateProgress to_file(file, false, 100.0), to_terminal(terminal, true, 100.0);
+  for (int tenth = 0; tenth < 140; ++tenth)
+    for (SimulateProgress* progress : {&to_file, &to_terminal}) progress->reached(tenth / 10.0, 1000, tenth / 10.0);
+  to_terminal.clear();
+  const std::string lines = file.str(), line = terminal.str();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
+  EXPECT_THAT(lines, HasSubstr("2 of 100 s simulated (2.0 %), 1000 events, 2 s passed, about 98 s left\n"));
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0);
+  EXPECT_EQ(line.substr(line.size() - 4), "\r\033[K");
 }
 
 TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
@@ -72,6 +147,8 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   EXPECT_EQ(run("crowd --until inf"), 2);
   EXPECT_THAT(said_, HasSubstr("neither runs backwards nor for ever"));
   EXPECT_EQ(run("crowd --until -1"), 2);
+  EXPECT_EQ(run("crowd --until nan"), 2);
+  EXPECT_THAT(said_, HasSubstr("expected a finite time"));
   EXPECT_EQ(run("crowd"), 2);
   EXPECT_THAT(said_, HasSubstr("--until"));
   EXPECT_EQ(run("no-such-preset --until 1"), 2);

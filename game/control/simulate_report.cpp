@@ -1,0 +1,81 @@
+// The order of columns and keys, which scripts rely on.
+#include "game/control/simulate_report.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace rink::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* kind_name(physics::BodyKind kind) { return kind == physics::BodyKind::puck ? "puck" : kind == physics::BodyKind::bat ? "bat" : "post"; }
+
+Json engine_of(const physics::SimulatorChoice& engine) {
+  if (engine.engine == "exact") return {{"engine", engine.engine}};
+  return {{"engine", engine.engine}, {"integrator", engine.integrator}, {"dt", engine.dt}};
+}
+
+Json by_kind(physics::Counters counters) {
+  Json kinds;
+  for (std::size_t kind = 0; kind < physics::event_kind_names.size(); ++kind) kinds[physics::event_kind_names[kind]] = counters.of(static_cast<physics::EventKind>(kind));
+  return kinds;
+}
+
+std::string hexadecimal(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+  return text;
+}
+
+}  // namespace
+
+void write_states(std::ostream& stream, const Game& game) {
+  stream << "kind,id,x,y,vx,vy\n";
+  stream.precision(17);
+  for (const Entity& entity : game.entities()) {
+    const Vector2 position = game.position(entity.id), velocity = game.velocity(entity.id);
+    stream << kind_name(entity.kind) << ',' << entity.id.index << ',' << position.x() << ',' << position.y() << ',' << velocity.x() << ',' << velocity.y() << '\n';
+  }
+}
+
+void write_events_heading(std::ostream& stream) { stream << "time,kind,body,other\n"; }
+
+void write_events(std::ostream& stream, std::span<const physics::Event> events) {
+  stream.precision(17);
+  for (const physics::Event& event : events) {
+    stream << event.time << ',' << physics::event_kind_names[static_cast<std::size_t>(event.kind)] << ',' << event.body.index << ',';
+    if (event.other) stream << event.other->index;
+    stream << '\n';
+  }
+}
+
+std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s) {
+  const physics::Simulator& simulator = game.simulator();
+  const physics::Counters counters = simulator.counters();
+  const Vector2 momentum = simulator.momentum();
+  Json summary = engine_of(engine);
+  summary.update({{"time", game.now()},
+                  {"events", counters.events()},
+                  {"collisions", counters.impacts()},
+                  {"events_by_kind", by_kind(counters)},
+                  {"kinetic_energy", simulator.kinetic_energy()},
+                  {"momentum_x", momentum.x()},
+                  {"momentum_y", momentum.y()},
+                  {"max_overlap", simulator.max_overlap()},
+                  {"escapes", physics::escape_count(simulator)},
+                  {"goals_left", game.score().left},
+                  {"goals_right", game.score().right},
+                  {"is_over", game.is_over()},
+                  {"hash", hexadecimal(game.hash())},
+                  {"bodies_touched", counters.bodies_touched},
+                  {"predictions", counters.predictions},
+                  {"evaluations", counters.evaluations},
+                  {"stale_events", counters.stale_events},
+                  {"crossings", counters.crossings},
+                  {"wall_s", wall_s}});
+  return summary.dump(2);
+}
+
+}  // namespace rink::game
