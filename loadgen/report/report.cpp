@@ -5,7 +5,7 @@
 #include <set>
 
 #include "loadgen/report/gains.h"
-#include "loadgen/report/style.h"
+#include "loadgen/report/page.h"
 #include "loadgen/report/text.h"
 #include "loadgen/summary.h"
 
@@ -63,38 +63,11 @@ Exhibit reproduction(const Experiment& experiment, const Provenance& provenance)
   return exhibit;
 }
 
-Exhibit provenance_list(const Provenance& provenance) {
-  Exhibit exhibit{"<dl>\n"};
-  for (const auto& [name, text] : provenance.facts) exhibit.html += "<dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd>\n";
-  exhibit.html += "</dl>\n";
-  return exhibit;
-}
-
 constexpr const char* definitions =
     "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; a "
     "segment carries up to 1,448 bytes; acknowledgements are not counted). Displayed error: distance between where a client shows an entity at an instant and where it truly is then; at matched "
     "time: the same at the instant that the client's newest state describes. Latencies count from the instant an action was due. A percentile is shown only if ten or more samples lie beyond it, and "
     "averaged only if every valid replication has it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by seed.</p>\n";
-
-/// Sections in the order of the page, with the list of contents that leads to them.
-class Page {
- public:
-  void add(const std::string& id, const std::string& title, Exhibit exhibit) {
-    contents_ += (contents_.empty() ? "" : " \xC2\xB7 ") + std::string("<a href=\"#") + id + "\">" + escaped(title) + "</a>\n";
-    body_ += "<section id=\"" + id + "\">\n<h2>" + escaped(title) + "</h2>\n" + exhibit.html + "</section>\n";
-    std::move(exhibit.tables.begin(), exhibit.tables.end(), std::back_inserter(tables_));
-  }
-  Report finished(const std::string& title, const std::string& introduction) {
-    const std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>" + escaped(title) +
-                             "</title>\n<style>" + report_style + "</style>\n</head>\n<body>\n<h1>" + escaped(title) + "</h1>\n" + introduction + "<nav>" + contents_ + "</nav>\n" + body_ +
-                             "</body>\n</html>\n";
-    return {html, std::move(tables_)};
-  }
-
- private:
-  std::string contents_, body_;
-  std::vector<PlotTable> tables_;
-};
 
 std::string introduction_of(const Findings& findings) {
   const std::string headline = headline_of(findings);
@@ -123,7 +96,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   page.add("definitions", "Definitions", {definitions});
   page.add("reproduce", "How to reproduce", reproduction(experiment, provenance));
   page.add("provenance", "Provenance", provenance_list(provenance));
-  return page.finished(experiment.name + ": interest management compared", introduction_of(findings));
+  return std::move(page).finished(experiment.name + ": interest management compared", introduction_of(findings));
 }
 
 }  // namespace rink::loadgen

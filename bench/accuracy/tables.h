@@ -1,0 +1,42 @@
+// What was measured, as text for a terminal and as rows for files.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bench/accuracy/diagram.h"
+#include "bench/accuracy/stability.h"
+#include "loadgen/report/plot_table.h"
+
+namespace rink::accuracy {
+
+/// What a contender needs to err by no more than the panel's target, in words and relative to the exact engine's run time in the same panel.
+struct Standing {
+  std::string run_ms;                   ///< "12.3", "< 0.4" if its longest step is better already, "> 300" if no step got there, "-" if it has no point
+  std::string ratio;                    ///< likewise; "-" without the exact engine beside it
+  std::optional<double> least_ratio{};  ///< the ratio is this, or more where is_bound
+  bool is_bound = false;                ///< no step got there: the ratio is at least this
+};
+Standing standing_of(const Panel& panel, const Series& series);
+
+/// One line per contender: at 1/60 s, at its finest step, and at the target.
+std::string text_of(const Panel& panel);
+/// One line per contender.
+std::string text_of(const Ordeal& ordeal);
+
+/// What the two kinds of tables mean, to stand below them.
+extern const char* const panel_legend;
+extern const char* const ordeal_legend;
+
+/// The ratios of the peers in one sentence; empty if the panel lacks the exact engine or all peers.
+std::string headline_of(const Panel& panel);
+
+/// A row per point, per trial and contender.
+loadgen::PlotTable points_table(const std::string& name, std::span<const Panel> panels);
+loadgen::PlotTable stability_table(std::span<const Ordeal> ordeals);
+
+/// A metre in scientific notation with two digits, `0`, or `-` for what is not finite.
+std::string metres(double value);
+
+}  // namespace rink::accuracy

@@ -1,0 +1,28 @@
+// One HTML page that needs neither network nor script, made of sections.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loadgen/report/exhibit.h"
+#include "loadgen/report/report.h"
+
+namespace rink::loadgen {
+
+/// Sections in the order of the page, with the list of contents that leads to them.
+class Page {
+ public:
+  /// `id` of letters and dashes.
+  void add(const std::string& id, const std::string& title, Exhibit exhibit);
+  /// The page with `introduction`, markup, above the contents; `title` is text.
+  Report finished(const std::string& title, const std::string& introduction) &&;
+
+ private:
+  std::string contents_, body_;
+  std::vector<PlotTable> tables_;
+};
+
+/// The facts as a list.
+Exhibit provenance_list(const Provenance& provenance);
+
+}  // namespace rink::loadgen
