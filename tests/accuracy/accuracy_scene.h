@@ -21,6 +21,13 @@ using physics::World;
 
 inline Scene scene_named(const std::string& name) { return game::load_scene(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy/" + name + ".toml"); }
 
+/// Sanitizers look for other mistakes than drift, and take up to thirty times as long.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+
 /// A game adds posts, then bats, then pucks, in the scene's order.
 inline BodyId body_named(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;

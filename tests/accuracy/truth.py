@@ -33,7 +33,7 @@ class Exact:
 
 
 class Body:
-    def __init__(self, kind, table, drag, name):
+    def __init__(self, kind, table, drag, name, friction=0.0):
         self.kind, self.name = kind, table.get("name", name)
         self.x = [mpf(c) for c in table["position"]]
         self.v = [mpf(c) for c in table.get("velocity", (0.0, 0.0))]
@@ -41,11 +41,17 @@ class Body:
         self.half = [mpf(c) for c in table.get("half_extent", (0.0, 0.0))]
         self.inverse_mass = mpf(0) if kind == "post" else 1 / mpf(table.get("mass", 1.0))
         self.drag, self.thrust, self.keys = mpf(drag), mpf(table.get("thrust", 10.0)), set()
-        self.a, self.time = [mpf(0), mpf(0)], mpf(0)
+        self.a, self.time, self.friction = [mpf(0), mpf(0)], mpf(0), mpf(friction)
 
     def at(self, time, how):
-        """Position and velocity of dv/dt = a - g v."""
+        """Position and velocity of dv/dt = a - g v, or of dv/dt = -friction v/|v| until the body rests."""
         n, t = how.number, how.number(time - self.time)
+        if self.friction > 0:
+            x, v = [n(c) for c in self.x], [n(c) for c in self.v]
+            speed, lost = how.sqrt(v[0] ** 2 + v[1] ** 2), n(self.friction) * t
+            left = max(speed - lost, n(0))
+            way = (speed + left) / 2 * min(t, speed / n(self.friction))
+            return [[c + w * way / speed for c, w in zip(x, v)], [w * left / speed for w in v]] if speed > 0 else [x, v]
         g, result = n(self.drag), ([], [])
         if g == 0:
             s, q, e = t, t * t / 2, n(1)
@@ -159,10 +165,11 @@ def collide(a, b, time, restitution):
 def play(name, until):
     table = tomllib.loads((scenes / (name + ".toml")).read_text())
     field, drag = table["field"], table.get("drag", {})
+    friction = table.get("friction", {}).get("pucks", 0.0)
     restitution = mpf(table.get("materials", {}).get("restitution", 1.0))
     bodies = [Body("post", t, 0.0, f"post-{i}") for i, t in enumerate(table.get("post", []))]
     bodies += [Body("bat", t, drag.get("bats", 0.0), f"bat-{i}") for i, t in enumerate(table.get("bat", []))]
-    bodies += [Body("puck", t, drag.get("pucks", 0.0), f"puck-{i}") for i, t in enumerate(table.get("puck", []))]
+    bodies += [Body("puck", t, drag.get("pucks", 0.0), f"puck-{i}", friction) for i, t in enumerate(table.get("puck", []))]
     walls = [Wall(0, 1, 0.0), Wall(0, -1, field["length"]), Wall(1, 1, 0.0), Wall(1, -1, field["width"])]
     moving = [b for b in bodies if b.kind != "post"]
     pairs = [(a, b) for a in moving for b in bodies if a is not b and (b.kind == "post" or bodies.index(a) < bodies.index(b))] + [(a, w) for a in moving for w in walls]
@@ -189,7 +196,7 @@ def play(name, until):
         yield ",".join([name, repr(until), body.name, str(impacts), mp.nstr(cosine, 20)] + [mp.nstr(c, 50) for c in position + velocity])
 
 
-stops = {"pair-*": 1.0, "bat-*": 1.0, "bat-three-roots": 0.6}
+stops = {"pair-*": 1.0, "bat-*": 1.0, "bat-three-roots": 0.6, "friction-*": 1.5}
 
 
 def lines():
