@@ -17,6 +17,7 @@ BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
   tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
+  has_free_impacts_ = spec.puck_drag == 0.0;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
@@ -39,9 +40,10 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
   assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
   assert(is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
-  bodies_.push_back({position.x(), position.y(), velocity.x(), velocity.y(), now_, radius, 0, kind, material, 0, no_mouth});
-  builds_.push_back({mass, kind == BodyKind::post ? 0.0 : 1.0 / mass, half_extent, Vector2(0.0, 0.0), half});
-  slots_.push_back({infinity, infinity, partner::none, 0, 0, 0});
+  const Real inverse_mass = kind == BodyKind::post ? 0.0 : 1.0 / mass;
+  bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), now_, radius}, inverse_mass, 0, kind, material, 0, no_mouth});
+  builds_.push_back({mass, inverse_mass, half_extent, Vector2(0.0, 0.0), half});
+  slots_.push_back({infinity, infinity, partner::none, 0, CellGrid::left});
   laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
   rhythms_.emplace_back();
   jams_.push_back(0);
@@ -167,7 +169,7 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
   else if (p == partner::mouth_in || p == partner::mouth_out) {
     rebase_companions(body, time);
     bodies_[body].mouth = p == partner::mouth_out ? no_mouth : bodies_[body].x < 0.5 * spec_.field.length ? left_mouth : right_mouth;
-  } else collide(body, p, time);
+  } else if (!collide_freely(body, p, time)) collide(body, p, time);
   settle();
 }
 
@@ -184,20 +186,14 @@ void BasicEngine<Real>::settle() {
 template <class Real>
 void BasicEngine<Real>::cross_cell(std::uint32_t body) {
   ++counters_.crossings;
-  const Slot& slot = slots_[body];
-  const int dx = slot.columns, dy = slot.rows;
-  grid_.move(body, dx, dy);
-  if ((bodies_[body].flags & curved) == 0) {
-    // Only the three cells that came into sight: the earliest impact in the others is known and stays the earliest.
-    const auto visit = [&](std::uint32_t other) {
-      if (other != body) predict_pair(body, other);
-    };
-    grid_.around(grid_.column_of(body), grid_.row_of(body), dx == 0 ? -1 : dx, dx == 0 ? 1 : dx, dy == 0 ? -1 : dy, dy == 0 ? 1 : dy, visit);
-    predict_crossing(body);
-    enqueue(body);
-  } else {
-    predict(body);
-  }
+  const CellGrid::Direction direction = slots_[body].direction;
+  grid_.move(body, direction);
+  if ((bodies_[body].flags & curved) != 0) return predict(body);
+  // Only the three cells that came into sight: the earliest impact in the others is known and stays the earliest.
+  predict_flight(body);
+  candidates_.resize(grid_.collected_max());
+  predict_pairs(body, grid_.collect_ahead(body, direction, candidates_.data()));
+  enqueue(body);
 }
 
 template <class Real>

@@ -7,6 +7,8 @@
 #include "game/physics/cell_grid.h"
 #include "game/physics/event_queue.h"
 #include "game/physics/impact_time.h"
+#include "game/physics/large_pages.h"
+#include "game/physics/straight_flight.h"
 #include "game/physics/world.h"
 
 namespace rink::physics {
@@ -70,8 +72,8 @@ class BasicEngine {
   enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
 
   /// What an impact of two pucks reads and writes: one cache line.
-  struct alignas(64) Body {
-    Real x, y, vx, vy, time, radius;
+  struct alignas(64) Body : Flight<Real> {
+    Real inverse_mass;
     std::uint32_t version;
     BodyKind kind;
     MaterialId material;
@@ -96,7 +98,7 @@ class BasicEngine {
     Real impact_time, crossing_time;
     Partner partner;
     std::uint32_t partner_version;
-    std::int8_t columns, rows;
+    CellGrid::Direction direction;  // of the crossing
   };
   /// Rest contact along `axis`: `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
   struct Hold {
@@ -154,13 +156,17 @@ class BasicEngine {
   // engine_prediction.cpp
   void predict(std::uint32_t body);
   void predict_field(std::uint32_t body);
-  void predict_straight_walls(std::uint32_t body);
+  void predict_flight(std::uint32_t body);
+  void predict_side_wall(std::uint32_t body);
+  void predict_end_wall(std::uint32_t body);
   void predict_curved_walls(std::uint32_t body);
   void predict_mouth(std::uint32_t body);
+  void predict_pairs(std::uint32_t body, std::uint32_t count);
+  void predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count);
   void predict_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_release(std::uint32_t body);
-  void predict_crossing(std::uint32_t body);
+  void predict_curved_crossing(std::uint32_t body);
   void offer(std::uint32_t body, Real time, Partner partner);
   void enqueue(std::uint32_t body);
   Real real_time(Real start, Real warped) const;
@@ -171,6 +177,7 @@ class BasicEngine {
   Vector2 velocity_of(Partner p) const;
   Vector2 acceleration_of(Partner p) const;
   Real restitution(std::uint32_t body, Partner partner) const;
+  bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
   void bounce(const Contact& contact, Real approach, Real restitution, Real time);
@@ -206,8 +213,8 @@ class BasicEngine {
   Real now_ = 0.0;
   Real tolerance_;  // rounding error of an offset [m]
   Real puck_drag_;
-  std::vector<Body> bodies_;
-  std::vector<Slot> slots_;
+  LargeArray<Body> bodies_;
+  LargeArray<Slot> slots_;
   std::vector<Law> laws_;
   std::vector<Build> builds_;
   std::vector<Rhythm> rhythms_;
@@ -218,6 +225,9 @@ class BasicEngine {
   Real reach_ = 0.0;               // largest half extent of any body [m]
   std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
   std::uint32_t jam_count_ = 0;
+  bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
+  std::uint32_t curved_count_ = 0;         // bodies not in straight flight
+  std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> cluster_;
   std::vector<ClusterContact> cluster_contacts_;

@@ -1,6 +1,7 @@
 // The earliest event of a body, from last-event states alone.
 #include "game/physics/engine.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace rink::physics {
@@ -33,11 +34,11 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
   slots_[body].impact_time = infinity;
   slots_[body].partner = partner::none;
   predict_field(body);
-  const auto visit = [&](std::uint32_t other) {
-    if (other != body) predict_pair(body, other);
-  };
-  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, visit);
-  predict_crossing(body);
+  candidates_.resize(grid_.collected_max());
+  const std::uint32_t count = grid_.collect(body, candidates_.data());
+  --counters_.predictions;  // of the body with itself
+  predict_pairs(body, count);
+  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   enqueue(body);
 }
 
@@ -46,7 +47,7 @@ void BasicEngine<Real>::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
   if ((b.flags & held) != 0) predict_release(body);
   if ((b.flags & curved) != 0) predict_curved_walls(body);
-  else if (b.vx != 0.0 || b.vy != 0.0) predict_straight_walls(body);
+  else predict_flight(body);
   if (b.mouth != no_mouth) predict_mouth(body);
 }
 
@@ -58,14 +59,37 @@ Real BasicEngine<Real>::real_time(Real start, Real warped) const {
   return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
 }
 
+/// The crossing of a body in straight flight and, where its cell lies at the rim, the wall: from any other cell a crossing comes first.
 template <class Real>
-void BasicEngine<Real>::predict_straight_walls(std::uint32_t body) {
+void BasicEngine<Real>::predict_flight(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  Slot& slot = slots_[body];
+  slot.crossing_time = infinity;
+  if (b.vx == 0.0 && b.vy == 0.0) return;
+  const CellGrid::Place place = grid_.place(body);
+  const bool is_right = b.vx > 0.0, is_up = b.vy > 0.0;
+  const Real x = b.vx == 0.0 ? infinity : (grid_.column_edge(place.column, is_right) - b.x) / b.vx;
+  const Real y = b.vy == 0.0 ? infinity : (grid_.row_edge(place.row, is_up) - b.y) / b.vy;
+  if (x == infinity) predict_end_wall(body);
+  if (y == infinity) predict_side_wall(body);
+  const int across = is_right ? CellGrid::right : CellGrid::left, along = is_up ? CellGrid::up : CellGrid::down;
+  slot.direction = static_cast<CellGrid::Direction>(x <= y ? across : along);
+  const Real warped = std::min(x, y);
+  if (warped < infinity) slot.crossing_time = real_time(b.time, warped);
+}
+
+template <class Real>
+void BasicEngine<Real>::predict_side_wall(std::uint32_t body) {
+  const Body& b = bodies_[body];
+  if (b.vy == 0.0) return;
+  const Real gap = b.vy < 0.0 ? b.y - b.radius : spec_.field.width - b.radius - b.y;
+  offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
+}
+
+template <class Real>
+void BasicEngine<Real>::predict_end_wall(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Field& field = spec_.field;
-  if (b.vy != 0.0) {
-    const Real gap = b.vy < 0.0 ? b.y - b.radius : field.width - b.radius - b.y;
-    offer(body, real_time(b.time, std::max<Real>(0.0, gap) / std::abs(b.vy)), b.vy < 0.0 ? partner::wall_bottom : partner::wall_top);
-  }
   if (b.vx == 0.0 || b.mouth != no_mouth) return;
   const Real gap = b.vx < 0.0 ? b.x - b.radius : field.length - b.radius - b.x;
   const Real warped = std::max<Real>(0.0, gap) / std::abs(b.vx);
@@ -138,10 +162,47 @@ void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
   }
 }
 
+/// The first `count` of the candidates.
+template <class Real>
+void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
+  counters_.predictions += count;
+  std::uint32_t* near = candidates_.data();
+  if ((bodies_[body].flags & curved) == 0 && puck_drag_ == 0.0) {
+    const auto is_curved = [&](std::uint32_t other) { return (bodies_[other].flags & curved) != 0; };
+    std::uint32_t* const straight_end = curved_count_ == 0 ? near + count : std::partition(near, near + count, [&](std::uint32_t other) { return !is_curved(other); });
+    for (std::uint32_t* other = straight_end; other != near + count; ++other) predict_curved_pair(body, *other);
+    return predict_straight_pairs(body, near, static_cast<std::uint32_t>(straight_end - near));
+  }
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (near[k] != body) predict_pair(body, near[k]);
+}
+
+/// Where nothing comes at the same time, which is nearly always, no branch depends on who meets whom.
+template <class Real>
+void BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count) {
+  Slot& slot = slots_[body];
+  for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
+    const std::uint32_t asked = std::min(flight_max, count - begin);
+    // The slack keeps those that rounding makes simultaneous.
+    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>);
+    const Meeting<Real> first = first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
+    if (first.time < infinity && (first.second_time == first.time || first.time == slot.impact_time)) {
+      for (std::uint32_t k = begin; k < begin + asked; ++k)
+        if (const auto time = meeting_time<Real>(bodies_[body], bodies_[near[k]], latest)) offer(body, *time, near[k]);
+      continue;
+    }
+    const bool is_earlier = first.time < slot.impact_time;
+    const Partner p = is_earlier ? first.other : slot.partner;
+    const std::uint32_t version = bodies_[is_earlier ? first.other : body].version;
+    slot.impact_time = std::min(slot.impact_time, first.time);
+    slot.partner = p;
+    slot.partner_version = is_earlier ? version : slot.partner_version;
+  }
+}
+
 /// Both positions are taken at the later of the two last events, so that the result depends on nothing but the two states.
 template <class Real>
 void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
-  ++counters_.predictions;
   const Body &a = bodies_[body], &b = bodies_[other];
   if (((a.flags | b.flags) & curved) != 0) return predict_curved_pair(body, other);
   Vector2 offset(b.x - a.x, b.y - a.y), velocity;
@@ -151,7 +212,8 @@ void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
     offset += Vector2(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
     velocity = Vector2(b.vx - a.vx, b.vy - a.vy);
   } else {
-    const WarpedTime wa = warp_unaccelerated(time - a.time, puck_drag_), wb = warp_unaccelerated(time - b.time, puck_drag_);
+    const auto warped_since = [&](const Body& c) { return c.time == time ? WarpedTime{0.0, 0.0, 1.0} : warp_unaccelerated(time - c.time, puck_drag_); };
+    const WarpedTime wa = warped_since(a), wb = warped_since(b);
     offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
@@ -179,37 +241,24 @@ void BasicEngine<Real>::predict_release(std::uint32_t body) {
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.
 template <class Real>
-void BasicEngine<Real>::predict_crossing(std::uint32_t body) {
-  const Body& b = bodies_[body];
+void BasicEngine<Real>::predict_curved_crossing(std::uint32_t body) {
   Slot& slot = slots_[body];
   slot.crossing_time = infinity;
-  slot.columns = slot.rows = 0;
-  const std::uint32_t column = grid_.column_of(body), row = grid_.row_of(body);
-  if ((b.flags & curved) == 0) {
-    const Real x = b.vx == 0.0 ? infinity : ((b.vx < 0.0 ? grid_.low(column) : grid_.high(column, true)) - b.x) / b.vx;
-    const Real y = b.vy == 0.0 ? infinity : ((b.vy < 0.0 ? grid_.low(row) : grid_.high(row, false)) - b.y) / b.vy;
-    const Real warped = std::min(x, y);
-    if (warped == infinity) return;
-    slot.crossing_time = real_time(b.time, warped);
-    if (x <= y) slot.columns = b.vx < 0.0 ? -1 : 1;
-    else slot.rows = b.vy < 0.0 ? -1 : 1;
-    return;
-  }
+  const CellGrid::Place place = grid_.place(body);
   const Motion still, moving = motion(body);
-  const Real start = std::max(b.time, now_);
-  const auto leave = [&](Real edge, Vector2 normal, int columns, int rows) {
+  const Real start = std::max(bodies_[body].time, now_);
+  const auto leave = [&](Real edge, Vector2 normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
     const Real limit = std::min(slot.impact_time, slot.crossing_time);
     const auto time = first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start, limit, tolerance_);
     if (!time || *time >= slot.crossing_time) return;
     slot.crossing_time = *time;
-    slot.columns = static_cast<std::int8_t>(columns);
-    slot.rows = static_cast<std::int8_t>(rows);
+    slot.direction = direction;
   };
-  leave(grid_.low(column), {1.0, 0.0}, -1, 0);
-  leave(grid_.high(column, true), {-1.0, 0.0}, 1, 0);
-  leave(grid_.low(row), {0.0, 1.0}, 0, -1);
-  leave(grid_.high(row, false), {0.0, -1.0}, 0, 1);
+  leave(grid_.column_edge(place.column, false), {1.0, 0.0}, CellGrid::left);
+  leave(grid_.column_edge(place.column, true), {-1.0, 0.0}, CellGrid::right);
+  leave(grid_.row_edge(place.row, false), {0.0, 1.0}, CellGrid::down);
+  leave(grid_.row_edge(place.row, true), {0.0, -1.0}, CellGrid::up);
 }
 
 template class BasicEngine<double>;

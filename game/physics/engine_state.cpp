@@ -54,6 +54,7 @@ template <class Real>
 void BasicEngine<Real>::write_law(std::uint32_t body) {
   Body& b = bodies_[body];
   const bool is_straight = b.kind != BodyKind::bat && laws_[body].acceleration == Vector2(0.0, 0.0) && laws_[body].drag == Vector2::Constant(puck_drag_);
+  curved_count_ += (is_straight ? 0u : 1u) - ((b.flags & curved) != 0 ? 1u : 0u);
   b.flags = static_cast<std::uint8_t>(is_straight ? b.flags & ~curved : b.flags | curved);
 }
 

@@ -2,7 +2,6 @@
 #include "game/physics/event_queue.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "game/physics/body.h"
@@ -11,15 +10,6 @@ namespace rink::physics {
 
 namespace {
 constexpr double number_max = 4.0e18;
-}
-
-template <class Real>
-void BasicEventQueue<Real>::resize(std::uint32_t count) {
-  entries_.resize(count);
-  if (heads_.size() < count || heads_.empty()) {
-    heads_.resize(std::bit_ceil(std::max<std::size_t>(2 * std::size_t{count}, 64)));
-    rebuild(1.0 / inverse_width_);
-  }
 }
 
 template <class Real>
@@ -40,6 +30,7 @@ void BasicEventQueue<Real>::link(std::uint32_t body) {
   const std::int64_t number = bucket_number(entry.time);
   entry.bucket = number < horizon_ ? static_cast<std::uint32_t>(number & static_cast<std::int64_t>(heads_.size() - 1)) : later_bucket;
   near_count_ += entry.bucket != later_bucket;
+  ++count_;
   std::uint32_t& first = head(entry.bucket);
   entry.next = first;
   entry.previous = none;
@@ -52,6 +43,7 @@ void BasicEventQueue<Real>::unlink(std::uint32_t body) {
   Entry& entry = entries_[body];
   if (entry.bucket == none) return;
   near_count_ -= entry.bucket != later_bucket;
+  --count_;
   if (entry.previous == none) head(entry.bucket) = entry.next;
   else entries_[entry.previous].next = entry.next;
   if (entry.next != none) entries_[entry.next].previous = entry.previous;
@@ -66,6 +58,7 @@ void BasicEventQueue<Real>::set(std::uint32_t body, Real time, std::uint32_t low
   entry.lower = lower;
   entry.higher = higher;
   if (time < std::numeric_limits<Real>::infinity()) link(body);
+  if (count_ > heads_.size()) rebuild(1.0 / inverse_width_, 2 * heads_.size());
 }
 
 template <class Real>
@@ -90,16 +83,20 @@ bool BasicEventQueue<Real>::is_followed_within(Real window) const {
 }
 
 template <class Real>
-void BasicEventQueue<Real>::rebuild(Real width) {
+void BasicEventQueue<Real>::rebuild(Real width, std::size_t bucket_count) {
   std::vector<std::uint32_t> pending;
-  for (std::uint32_t body = 0; body < entries_.size(); ++body)
-    if (entries_[body].bucket != none) pending.push_back(body);
+  pending.reserve(count_);
+  const auto add = [&](std::uint32_t list) {
+    for (std::uint32_t body = list; body != none; body = entries_[body].next) pending.push_back(body);
+  };
+  std::for_each(heads_.begin(), heads_.end(), add);
+  add(later_);
   inverse_width_ = 1.0 / width;
   current_ = static_cast<std::int64_t>(std::min<Real>(last_time_ * inverse_width_, number_max));
-  horizon_ = current_ + static_cast<std::int64_t>(heads_.size());
-  std::fill(heads_.begin(), heads_.end(), none);
+  heads_.assign(bucket_count, none);
+  horizon_ = current_ + static_cast<std::int64_t>(bucket_count);
   later_ = none;
-  near_count_ = 0;
+  near_count_ = count_ = 0;
   for (const std::uint32_t body : pending) link(body);
   begin_span();
 }
@@ -128,8 +125,9 @@ bool BasicEventQueue<Real>::refill(Real until) {
   }
   if (const auto wanted = mean_gap()) {
     const Real width = 1.0 / inverse_width_;
-    if (*wanted > 4.0 * width || *wanted < 0.25 * width) {
-      rebuild(*wanted);
+    const bool is_ring_too_long = heads_.size() > bucket_min && heads_.size() > 32 * std::size_t{count_};
+    if (*wanted > 2.0 * width || *wanted < 0.5 * width || is_ring_too_long) {
+      rebuild(*wanted, is_ring_too_long ? heads_.size() / 8 : heads_.size());
       return true;
     }
     begin_span();
@@ -162,7 +160,7 @@ std::uint32_t BasicEventQueue<Real>::first(Real until) {
       ++taken_;
       if (looked_at_ - span_looked_at_ > 16 * taken_ + 4096)
         if (const auto wanted = mean_gap()) {
-          rebuild(*wanted);
+          rebuild(*wanted, heads_.size());
           runner_up_ = last_time_;  // it may have been in another bucket
         }
       return best;

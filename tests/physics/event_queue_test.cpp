@@ -3,6 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tests/physics/scenes.h"
+
 namespace rink::physics {
 namespace {
 
@@ -65,6 +73,48 @@ TEST(EventQueue, KnowsWhetherAnotherEventFollowsClosely) {
     queue.set(body, std::numeric_limits<double>::infinity(), body, body);
   }
   EXPECT_LE(said_in_vain, 50u);
+}
+
+TEST(EventQueue, KeepsTheOrderOfASortedSetWhileBodiesComeRestAndGo) {
+  EventQueue queue;
+  queue.resize(5'000);
+  std::mt19937_64 random(9);
+  std::set<std::pair<double, std::uint32_t>> sorted;
+  std::vector<double> times(5'000, std::numeric_limits<double>::infinity());
+  const auto put = [&](std::uint32_t body, double time) {
+    sorted.erase({times[body], body});
+    times[body] = time;
+    if (time < std::numeric_limits<double>::infinity()) sorted.insert({time, body});
+    queue.set(body, time, body, body);
+  };
+  for (std::uint32_t body = 0; body < 5'000; ++body) put(body, test::uniform(random, 0.0, 1.0));
+  double now = 0.0;
+  for (int step = 0; step < 100'000; ++step) {
+    const std::uint32_t body = queue.first(1e9);
+    ASSERT_EQ(body, sorted.begin()->second) << "step " << step;
+    now = times[body];
+    // Busy at first, then nearly all rest for long, then busy again.
+    const bool is_idle = step > 30'000 && step < 60'000;
+    const double scale = is_idle ? 100.0 : 1.0;
+    put(body, is_idle && sorted.size() > 20 ? std::numeric_limits<double>::infinity() : now + test::uniform(random, 0.0, scale));
+    if (step >= 60'000 && step < 64'000) put(static_cast<std::uint32_t>(random() % 5'000), now + test::uniform(random, 0.0, 1.0));
+  }
+  EXPECT_LE(queue.looked_at(), 8u * 100'000u);
+}
+
+TEST(EventQueue, DoesNoMoreWorkForBodiesWithoutAnEvent) {
+  const auto looked_at = [](std::uint32_t count) {
+    EventQueue queue;
+    queue.resize(count);
+    std::mt19937_64 random(10);
+    for (std::uint32_t body = 0; body < 100; ++body) queue.set(body, test::uniform(random, 0.0, 1.0), body, body);
+    for (int step = 0; step < 20'000; ++step) {
+      const std::uint32_t body = queue.first(1e9);
+      queue.set(body, queue.time(body) + test::uniform(random, 0.0, 1.0), body, body);
+    }
+    return queue.looked_at();
+  };
+  EXPECT_EQ(looked_at(100), looked_at(1'000'000));
 }
 
 }  // namespace

@@ -1,0 +1,132 @@
+// Discs in straight flight without drag: who among many touches one of them, and when.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "game/physics/impact_time.h"
+
+namespace rink::physics {
+
+/// A disc at its last event.
+template <class Real>
+struct Flight {
+  Real x, y, vx, vy;  ///< m, m/s
+  Real time;          ///< of the event [s]
+  Real radius;        ///< m
+};
+
+/// Whom a disc meets first and when, and when the second.
+template <class Real>
+struct Meeting {
+  Real time = std::numeric_limits<Real>::infinity();
+  std::uint32_t other = 0xffffffff;
+  Real second_time = std::numeric_limits<Real>::infinity();
+};
+
+/// When the two first touch, both taken at the later of their two events; nothing if they never do. May also give nothing if that were after `latest`.
+template <class Real>
+std::optional<Real> meeting_time(const Flight<Real>& a, const Flight<Real>& b, Real latest) {
+  const Real time = std::max(a.time, b.time), ahead_a = time - a.time, ahead_b = time - b.time;
+  const BasicVector2<Real> offset(b.x - a.x + (b.vx * ahead_b - a.vx * ahead_a), b.y - a.y + (b.vy * ahead_b - a.vy * ahead_a));
+  const auto wait = time_to_touch<Real>(offset, BasicVector2<Real>(b.vx - a.vx, b.vy - a.vy), a.radius + b.radius, latest - time);
+  return wait ? std::optional(time + *wait) : std::nullopt;
+}
+
+/// How many can be asked about at once.
+constexpr std::uint32_t flight_max = 32;
+
+/// Whom of `count` discs of `near` (ids in `discs`) the disc `own` meets first, as of meeting_time(); the first of them in `near` if several come at that time. `near` must be
+/// writable one place beyond its end. Meetings after `latest` may be left out.
+template <class Real, class Disc>
+Meeting<Real> first_meeting_singly(const Disc* discs, std::uint32_t own, const std::uint32_t* near, std::uint32_t count, Real latest) {
+  Meeting<Real> first;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const auto time = meeting_time<Real>(discs[own], discs[near[k]], latest);
+    if (!time) continue;
+    first.second_time = std::min(first.second_time, std::max(first.time, *time));
+    if (*time < first.time) first.time = *time, first.other = near[k];
+  }
+  return first;
+}
+
+#if defined(__SSE2__)
+
+/// The same bits two at a time, and without a branch that depends on where anybody is: a mispredicted one costs as much as the arithmetic for four discs. First all are tested for
+/// what rules a meeting out without a root, then those left over are solved; mostly these are no more than two.
+template <class Disc>
+Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count, double latest) {
+  const auto both = [](double value) { return _mm_set1_pd(value); };
+  const auto pair = [](const double& low, const double& high) { return _mm_loadh_pd(_mm_load_sd(&low), &high); };
+  struct alignas(16) Column {
+    double at[flight_max + 2];
+  };
+  Column times, gaps, openings, misses, squares, reaches;
+  const Disc& a = discs[own];
+  const __m128d ax = both(a.x), ay = both(a.y), avx = both(a.vx), avy = both(a.vy), a_time = both(a.time), a_radius = both(a.radius), limit = both(latest);
+  near[count] = (count & 1) != 0 ? own : near[count];  // fills an odd count; nobody closes on himself
+  std::uint32_t left[flight_max + 3], left_count = 0;
+  const std::uint32_t end = count + (count & 1);
+  for (std::uint32_t k = 0; k < end; k += 2) {
+    const Disc &b = discs[near[k]], &c = discs[near[k + 1]];
+    const __m128d b_time = pair(b.time, c.time), vx = pair(b.vx, c.vx), vy = pair(b.vy, c.vy);
+    const __m128d time = _mm_max_pd(a_time, b_time), ahead_a = _mm_sub_pd(time, a_time), ahead_b = _mm_sub_pd(time, b_time);
+    const __m128d x = _mm_add_pd(_mm_sub_pd(pair(b.x, c.x), ax), _mm_sub_pd(_mm_mul_pd(vx, ahead_b), _mm_mul_pd(avx, ahead_a)));
+    const __m128d y = _mm_add_pd(_mm_sub_pd(pair(b.y, c.y), ay), _mm_sub_pd(_mm_mul_pd(vy, ahead_b), _mm_mul_pd(avy, ahead_a)));
+    const __m128d wx = _mm_sub_pd(vx, avx), wy = _mm_sub_pd(vy, avy), reach = _mm_add_pd(a_radius, pair(b.radius, c.radius));
+    const __m128d opening = _mm_add_pd(_mm_mul_pd(x, wx), _mm_mul_pd(y, wy)), square = _mm_add_pd(_mm_mul_pd(wx, wx), _mm_mul_pd(wy, wy));
+    const __m128d gap = _mm_sub_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)), _mm_mul_pd(reach, reach)), miss = _mm_sub_pd(_mm_mul_pd(x, wy), _mm_mul_pd(y, wx));
+    const __m128d soon = _mm_mul_pd(_mm_mul_pd(both(-2.001), opening), _mm_sub_pd(limit, time));
+    const __m128d wide = _mm_mul_pd(_mm_mul_pd(_mm_mul_pd(both(1.001), square), reach), reach);
+    const __m128d in_reach = _mm_cmple_pd(_mm_mul_pd(miss, miss), wide), in_time = _mm_or_pd(_mm_cmple_pd(gap, soon), _mm_cmple_pd(gap, _mm_setzero_pd()));
+    const int mask = _mm_movemask_pd(_mm_and_pd(_mm_cmplt_pd(opening, _mm_setzero_pd()), _mm_and_pd(in_time, in_reach)));
+    _mm_store_pd(times.at + k, time), _mm_store_pd(gaps.at + k, gap), _mm_store_pd(openings.at + k, opening);
+    _mm_store_pd(misses.at + k, miss), _mm_store_pd(squares.at + k, square), _mm_store_pd(reaches.at + k, reach);
+    left[left_count] = k;
+    left_count += static_cast<std::uint32_t>(mask & 1);
+    left[left_count] = k + 1;
+    left_count += static_cast<std::uint32_t>(mask >> 1);
+  }
+  // Two places that meet nobody: a gap, a negative discriminant.
+  left[left_count] = left[left_count + 1] = end;
+  times.at[end] = openings.at[end] = squares.at[end] = reaches.at[end] = 0.0;
+  gaps.at[end] = misses.at[end] = 1.0;
+  const __m128d never = both(std::numeric_limits<double>::infinity());
+  Meeting<double> first;
+  std::uint32_t m = 0;
+  do {
+    const std::uint32_t j = left[m], k = left[m + 1];
+    const auto of = [&](const Column& column) { return pair(column.at[j], column.at[k]); };
+    const __m128d zero = _mm_setzero_pd(), gap = of(gaps), miss = of(misses), speed_reach = _mm_mul_pd(_mm_sqrt_pd(of(squares)), of(reaches));
+    const __m128d discriminant = _mm_mul_pd(_mm_sub_pd(speed_reach, miss), _mm_add_pd(speed_reach, miss));
+    const __m128d wait = _mm_div_pd(gap, _mm_add_pd(_mm_sub_pd(zero, of(openings)), _mm_sqrt_pd(discriminant))), is_now = _mm_cmple_pd(gap, zero);
+    const __m128d is_meeting = _mm_or_pd(is_now, _mm_cmpge_pd(discriminant, zero)), time = _mm_add_pd(of(times), _mm_andnot_pd(is_now, wait));
+    const __m128d found = _mm_or_pd(_mm_and_pd(is_meeting, time), _mm_andnot_pd(is_meeting, never));
+    const double time_j = _mm_cvtsd_f64(found), time_k = _mm_cvtsd_f64(_mm_unpackhi_pd(found, found));
+    const double earlier = std::min(time_j, time_k), later = std::max(time_j, time_k);
+    const std::uint32_t other = near[time_k < time_j ? k : j];
+    first.second_time = std::min(std::min(first.second_time, later), std::max(first.time, earlier));
+    first.other = earlier < first.time ? other : first.other;
+    first.time = std::min(first.time, earlier);
+    m += 2;
+  } while (m < left_count);
+  return first;
+}
+
+#endif
+
+/// As first_meeting_singly(), the quickest way that this machine's baseline allows.
+template <class Real, class Disc>
+Meeting<Real> first_meeting(const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count, Real latest) {
+#if defined(__SSE2__)
+  if constexpr (std::is_same_v<Real, double>) return first_meeting_in_pairs(discs, own, near, count, latest);
+#endif
+  return first_meeting_singly(discs, own, near, count, latest);
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,100 @@
+// Discs in straight flight: whom one of them meets first, asked two at a time or one by one.
+#include "game/physics/straight_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/physics/scenes.h"
+
+namespace rink::physics {
+namespace {
+
+using test::uniform;
+
+/// Some overlap, some lie still, some are copies of each other.
+std::vector<Flight<double>> crowd_of(std::mt19937_64& random, std::uint32_t count) {
+  std::vector<Flight<double>> discs;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (k > 1 && random() % 8 == 0) {
+      discs.push_back(discs[1 + random() % (k - 1)]);
+      continue;
+    }
+    const double speed = random() % 8 == 0 ? 0.0 : 1.0;
+    discs.push_back({uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), speed * uniform(random, -2.0, 2.0), speed * uniform(random, -2.0, 2.0), uniform(random, 0.0, 0.05),
+                     uniform(random, 0.01, 0.06)});
+  }
+  return discs;
+}
+
+TEST(FirstMeeting, HasTheSameBitsTwoAtATimeAsOneByOne) {
+  std::mt19937_64 random(5);
+  int met = 0, tied = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
+    const std::vector<Flight<double>> discs = crowd_of(random, count + 1);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t k = 0; k < count; ++k) near.push_back(static_cast<std::uint32_t>(random() % discs.size()));
+    near.resize(flight_max + 8);
+    const double latest = round % 3 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 0.05, 0.4);
+    const Meeting<double> expected = first_meeting_singly(discs.data(), 0, near.data(), count, latest);
+    const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), count, latest);
+    ASSERT_EQ(first.time, expected.time) << "round " << round;
+    ASSERT_EQ(first.other, expected.other) << "round " << round;
+    ASSERT_EQ(first.second_time, expected.second_time) << "round " << round;
+    met += expected.time < std::numeric_limits<double>::infinity();
+    tied += expected.time < std::numeric_limits<double>::infinity() && expected.time == expected.second_time;
+  }
+  EXPECT_GT(met, 5'000);
+  EXPECT_GT(tied, 500);
+}
+
+TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
+  std::mt19937_64 random(6);
+  for (int round = 0; round < 2'000; ++round) {
+    const std::vector<Flight<double>> discs = crowd_of(random, 12);
+    std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0};
+    const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
+    if (first.other > 11) continue;
+    const Flight<double>&a = discs[0], &b = discs[first.other];
+    const double distance = std::hypot(b.x + b.vx * (first.time - b.time) - a.x - a.vx * (first.time - a.time), b.y + b.vy * (first.time - b.time) - a.y - a.vy * (first.time - a.time));
+    EXPECT_LE(distance, (a.radius + b.radius) * (1.0 + 1e-12));
+    if (first.time > std::max(a.time, b.time)) {
+      EXPECT_NEAR(distance, a.radius + b.radius, 1e-12) << "round " << round;
+    }
+  }
+}
+
+TEST(APuck, MeetsTheSameOthersWhetherOrNotABatIsSomewhere) {
+  const auto gas = [](bool has_bat) {
+    World world(test::rink_of(4.0, 2.0));
+    std::mt19937_64 random(7);
+    const std::vector<BodyId> pucks = test::scatter_pucks(world, random, 150);
+    BatSpec bat;
+    bat.position = {3.9, 1.9};
+    bat.half_extent = {0.05, 0.05};
+    bat.mass = 1e9;  // stays where it is
+    for (const BodyId puck : pucks)
+      if ((world.position(puck) - bat.position).norm() < 0.5) world.remove(puck);
+    PostSpec fence;
+    fence.radius = 0.03;
+    for (int k = 0; k < 6; ++k) {
+      fence.position = {3.75, 1.97 - 0.06 * k};
+      if (world.is_free(fence.position, fence.radius)) world.add(fence);
+      fence.position = {3.97 - 0.06 * k, 1.7};
+      if (world.is_free(fence.position, fence.radius)) world.add(fence);
+    }
+    if (has_bat) world.add(bat);
+    world.advance(3.0);
+    std::vector<double> states;
+    for (const BodyId puck : pucks)
+      for (const double value : {world.position(puck).x(), world.position(puck).y(), world.velocity(puck).x(), world.velocity(puck).y()}) states.push_back(value);
+    return states;
+  };
+  EXPECT_EQ(gas(false), gas(true));
+}
+
+}  // namespace
+}  // namespace rink::physics
