@@ -99,7 +99,7 @@ bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) 
 
 Effort effort_of(const Options& options) {
   if (options.is_quick) return {.run_max_s = 0.02, .repeats = 3, .limit_s = 5.0};
-  if (options.is_full) return {.run_max_s = 3.0, .repeats = 9, .limit_s = 300.0};
+  if (options.is_full) return {.run_max_s = 2.0, .repeats = 5, .limit_s = 300.0};
   return {};
 }
 
@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(one_of(rink::physics::integrator_names()));
   CLI::Option* quick = app.add_flag("--quick", options.is_quick, "short runs: half a minute");
-  app.add_flag("--full", options.is_full, "steps until a run takes 3 s: half an hour")->excludes(quick);
+  app.add_flag("--full", options.is_full, "steps until a run takes 2 s: about twenty minutes")->excludes(quick);
   app.add_option("--dt", options.dt, "step of the stepping engines with --stability [s] (default: 1/60)")->check(CLI::Range(1e-6, 1.0));
   app.footer(footer);
   try {

@@ -96,7 +96,8 @@ Exhibit exhibit_of(const std::vector<Ordeal>& ordeals) {
       exhibit.html += "<tr><td class=\"text\">" + escaped(survival.contender.name()) + "</td><td class=\"text" + (verdict == "yes" ? "" : " warn") + "\">" + escaped(verdict) + "</td>";
       if (survival.is_done) {
         const Wear& wear = survival.wear;
-        for (const std::string& value : {metres(wear.overlap), std::to_string(wear.escapes), metres(wear.energy_error), loadgen::plain_number(wear.events_per_s), loadgen::plain_number(1e3 * wear.run_s)})
+        const std::string events = loadgen::plain_number(wear.events_per_s), run_ms = loadgen::plain_number(1e3 * wear.run_s);
+        for (const std::string& value : {metres(wear.overlap), std::to_string(wear.escapes), metres(wear.energy_error), events, run_ms})
           exhibit.html += "<td>" + value + "</td>";
       }
       exhibit.html += "</tr>\n";
