@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "game/physics/collision/dynamic_tests.h"
@@ -64,7 +65,8 @@ Judged judge(const Encounter& e, const Obstacle& obstacle, const MaybeContact<do
   Judged judged{answer, first_touch(flight, obstacle), {1, 0}, flight.velocity};
   judged.length = e.offset().norm() + static_cast<double>(root(dot(obstacle.half_extent, obstacle.half_extent)) + obstacle.radius);
   const Quad slack = 5 * Quad(0x1p-52) * judged.length;
-  if (judged.truth.has_value() != answer.has_value()) judged.is_marginal = first_touch(flight, obstacle.grown(judged.truth ? -slack : slack)).has_value() != judged.truth.has_value();
+  if (judged.truth.has_value() != answer.has_value())
+    judged.is_marginal = first_touch(flight, obstacle.grown(judged.truth ? -slack : slack)).has_value() != judged.truth.has_value();
   if (!judged.truth) return judged;
   if (answer) judged.gap = obstacle.gap(flight.at(answer->time));
   judged.normal = normal_at(flight, obstacle, *judged.truth);
@@ -161,7 +163,8 @@ double textbook_ratio(Difficulty difficulty, int count) {
     const double radius = 0.04;
     const Encounter e = encounter(seeded, difficulty, {{0.0, 0.0}, 2.0 * radius});
     const auto truth = first_touch({exact(e.position_a) - exact(e.position_b), exact(e.velocity_a) - exact(e.velocity_b)}, {{0, 0}, Quad(radius) + Quad(radius)});
-    const auto mine = time_disc_meets_disc<double>({e.position_a, radius}, e.velocity_a, {e.position_b, radius}, e.velocity_b), other = textbook(e.offset(), e.velocity(), 2.0 * radius);
+    const auto mine = time_disc_meets_disc<double>({e.position_a, radius}, e.velocity_a, {e.position_b, radius}, e.velocity_b);
+    const auto other = textbook(e.offset(), e.velocity(), 2.0 * radius);
     if (!truth || !mine || !other) continue;
     ours.push_back(static_cast<double>(magnitude(mine->time - *truth)));
     theirs.push_back(static_cast<double>(magnitude(other->time - *truth)));
@@ -173,13 +176,20 @@ double textbook_ratio(Difficulty difficulty, int count) {
   return median(theirs) / median(ours);
 }
 
-void print(const char* title, std::vector<Row>& rows, const char* format, const std::function<double(Tally&)>& figure) {
+/// Two significant digits.
+std::string brief(double value) {
+  char text[24];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+void print(const char* title, std::vector<Row>& rows, const std::function<std::string(Tally&)>& figure) {
   std::printf("\n| %s |", title);
   for (const char* name : difficulty_names) std::printf(" %s |", name);
   std::printf("\n|---|---|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::printf("| %s |", subjects[i].name);
-    for (Tally& tally : rows[i]) std::printf(format, figure(tally));
+    for (Tally& tally : rows[i]) std::printf(" %s |", figure(tally).c_str());
     std::printf("\n");
   }
 }
@@ -215,6 +225,43 @@ TEST(TimesOfImpact, AreWithinRoundingOfTheTruth) {
   expect_rounding_only(rows);
 }
 
+TEST(TimesOfImpact, OfPucksThatSkimAFaceAreNeverLostAtTheSeamWithTheCorner) {
+  Seeded seeded{17};
+  Tally tally;
+  for (int i = 0; i < 3000; ++i) {
+    SCOPED_TRACE("seed " + std::to_string(seeded.state));
+    const double radius = seeded.magnitude(0.01, 1.0);
+    Point extent = random_extent(seeded, Difficulty::random);
+    Encounter e{{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
+    e.position_a = {-(extent.x() + seeded.uniform(1.0, 3.0) * radius), (extent.y() + radius) * (1.0 + seeded.sign() * seeded.magnitude(1e-17, 1e-12))};
+    e.velocity_a.y() = seeded.sign() * seeded.magnitude(1e-17, 1e-9);
+    if (seeded.bits() % 2 == 0)
+      for (Point* p : {&e.position_a, &e.velocity_a, &extent}) *p = Point(p->y(), p->x());
+    tally.add(judge(e, {exact(extent), radius}, time_disc_meets_rounded_box(Disc<double>{e.position_a, radius}, e.velocity_a, Box<double>{e.position_b, extent}, e.velocity_b)));
+  }
+  EXPECT_LE(tally.gap, 4.0);
+  EXPECT_GT(tally.relative.size(), 500U);
+  EXPECT_GT(tally.misses, 500);
+}
+
+TEST(TimesOfImpact, AreAsPreciseAsTheirScalar) {
+  using Long = long double;
+  Seeded seeded{19};
+  Quad worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double radius = seeded.magnitude(0.01, 1.0);
+    const Point extent = random_extent(seeded, Difficulty::random), still(0.0, 0.0);
+    const Encounter e = encounter(seeded, Difficulty::random, {extent, radius});
+    const Disc<Long> disc{e.position_a.cast<Long>(), radius};
+    const Box<Long> box{e.position_b.cast<Long>(), extent.cast<Long>()};
+    const auto answer = time_disc_meets_rounded_box(disc, e.velocity_a.cast<Long>(), box, e.velocity_b.cast<Long>());
+    const auto truth = first_touch({exact(e.position_a) - exact(e.position_b), exact(e.velocity_a) - exact(e.velocity_b)}, {exact(extent), radius});
+    ASSERT_EQ(answer.has_value(), truth.has_value());
+    if (truth) worst = std::max(worst, magnitude(answer->time - *truth) / *truth);
+  }
+  EXPECT_LT(static_cast<double>(worst), 1e-17);
+}
+
 TEST(TimesOfImpact, OfDiscsAreBetterThanTheTextbooksOnDistantAndGrazingFlights) {
   EXPECT_GT(textbook_ratio(Difficulty::distant, 1000), 10.0);
   EXPECT_GT(textbook_ratio(Difficulty::grazing, 1000), 3.0);
@@ -223,12 +270,10 @@ TEST(TimesOfImpact, OfDiscsAreBetterThanTheTextbooksOnDistantAndGrazingFlights) 
 TEST(TimesOfImpactLong, AreWithinRoundingOfTheTruth) {
   auto rows = tally_all(4000);
   expect_rounding_only(rows);
-  print("hits", rows, " %.0f |", [](Tally& tally) { return static_cast<double>(tally.relative.size()); });
-  print("misjudged", rows, " %.0f |", [](Tally& tally) { return static_cast<double>(tally.misjudged); });
-  print("median relative error of time", rows, " %.2g |", [](Tally& tally) { return tally.median(); });
-  print("greatest relative error of time", rows, " %.2g |", [](Tally& tally) { return tally.worst(); });
-  print("greatest gap at that time", rows, " %.2g |", [](Tally& tally) { return tally.gap; });
-  print("greatest error of the normal", rows, " %.2g |", [](Tally& tally) { return tally.normal; });
+  print("relative error of the time, median / greatest", rows, [](Tally& tally) { return brief(tally.median()) + " / " + brief(tally.worst()); });
+  print("greatest gap at that time", rows, [](Tally& tally) { return brief(tally.gap); });
+  print("greatest error of the normal", rows, [](Tally& tally) { return brief(tally.normal); });
+  print("hits / misjudged", rows, [](Tally& tally) { return std::to_string(tally.relative.size()) + " / " + std::to_string(tally.misjudged); });
   for (const Difficulty difficulty : difficulties)
     std::printf("textbook's median error over ours, disc and disc, %s: %.2g\n", difficulty_names[static_cast<int>(difficulty)], textbook_ratio(difficulty, 4000));
 }

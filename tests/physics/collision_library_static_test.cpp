@@ -95,7 +95,11 @@ struct Subject {
   const char* name;
   double (*worst)(Difficulty, int);
 };
-constexpr Subject subjects[] = {{"point, plane", plane_distance}, {"point, circle", point_in_circle}, {"bounding circles", bounding_circles}, {"disc, box", disc_and_box}, {"box, box", boxes}};
+constexpr Subject subjects[] = {{"point, plane", plane_distance},
+                                {"point, circle", point_in_circle},
+                                {"bounding circles", bounding_circles},
+                                {"disc, box", disc_and_box},
+                                {"box, box", boxes}};
 
 void judge(int count, bool is_table) {
   if (is_table) std::printf("| static test | random | tiny | huge | far |\n|---|---|---|---|---|\n");

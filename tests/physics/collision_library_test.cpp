@@ -108,6 +108,20 @@ TEST(ShapesInContact, CollideNowIfTheyCloseAndNeverIfTheyPart) {
   EXPECT_FALSE(time_box_meets_box(bat, Point(0.0, -1.0), Box<double>{{0.0, 1.5}, {1.0, 1.0}}, Point(0.0, 0.0)));
 }
 
+TEST(ShapesAtRest, NeverMeet) {
+  const Point still(0.0, 0.0);
+  EXPECT_FALSE(time_disc_meets_disc(puck, still, Disc<double>{{0.0, 0.0}, 1.0}, still));
+  EXPECT_FALSE(time_disc_meets_rounded_box(puck, still, bat, still));
+  EXPECT_FALSE(time_box_meets_box(bat, still, Box<double>{{0.5, 0.5}, {1.0, 1.0}}, still)) << "even in overlap";
+  EXPECT_FALSE(time_point_meets_edge(Point(0.0, 3.0), still, Edge<double>{{2.0, 0.0}, {-2.0, 0.0}}));
+}
+
+TEST(ShapesOfSinglePrecision, AreAnsweredInSinglePrecision) {
+  const Disc<float> a{{-3.0F, 0.0F}, 0.5F}, b{{3.0F, 0.0F}, 1.5F};
+  const MaybeContact<float> contact = time_disc_meets_disc(a, Vector<float>(1.0F, 0.0F), b, Vector<float>(-1.0F, 0.0F));
+  EXPECT_EQ(contact->time, 2.0F);
+}
+
 TEST(SharpBox, IsTheFourEdgesMovedOutwardsByTheRadius) {
   std::mt19937_64 random(11);
   const double x = bat.half_extent.x() + 0.5, y = bat.half_extent.y() + 0.5;

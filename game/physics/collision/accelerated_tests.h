@@ -62,7 +62,8 @@ MaybeContact<Real> time_box_meets_box(const BasicMotion<Real>& a, const Given<Ve
 /// A moving point against an edge that moves without turning; `edge` is given relative to the position of its motion. A point may pass the edge's line beyond its ends, come
 /// back and meet the edge later: up to three crossings when the drags differ.
 template <class Real>
-MaybeContact<Real> time_point_meets_moving_edge(const BasicMotion<Real>& point, const BasicMotion<Real>& edge_motion, const Edge<Real>& edge, Given<Real> start, Given<Real> limit) {
+MaybeContact<Real> time_point_meets_moving_edge(const BasicMotion<Real>& point, const BasicMotion<Real>& edge_motion, const Edge<Real>& edge, Given<Real> start,
+                                                Given<Real> limit) {
   const Vector<Real> along = edge.to - edge.from, normal = Vector<Real>(along.y(), -along.x()).normalized();
   const BasicHalfPlane<Real> inside{normal, normal.dot(edge.from)}, outside{-normal, -inside.limit};
   const Rebased<Real> rebased(point, edge_motion, edge.from.template lpNorm<1>() + edge.to.template lpNorm<1>());

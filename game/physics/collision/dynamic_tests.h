@@ -52,7 +52,7 @@ MaybeContact<Real> time_disc_meets_disc(const Disc<Real>& moving, const Given<Ve
   return meet_disc<Real>(moving.center - still.center, velocity, moving.radius + still.radius, limit);
 }
 
-/// A moving disc against a moving box: exact, hence the box grown by the radius with rounded corners. The disc's radius is above 0.
+/// A moving disc against a moving box: exact, hence the box grown by the radius with rounded corners.
 template <class Real>
 MaybeContact<Real> time_disc_meets_rounded_box(const Disc<Real>& disc, const Given<Vector<Real>>& disc_velocity, const Box<Real>& box, const Given<Vector<Real>>& box_velocity,
                                                Given<Real> limit = never<Real>) {

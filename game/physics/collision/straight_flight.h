@@ -84,7 +84,7 @@ MaybeContact<Real> meet_corner(const Vector<Real>& offset, const Vector<Real>& v
 /// on a face, or in the square of one corner, which it can leave for another part of the rounded box only through that corner's arc.
 template <class Real>
 MaybeContact<Real> meet_rounded_box(const Vector<Real>& offset, const Vector<Real>& velocity, const Vector<Real>& half_extent, Real radius, Real limit) {
-  assert(radius > Real(0));
+  if (radius == Real(0)) return meet_box<Real>(offset, velocity, half_extent, limit);
   const Vector<Real> outside = offset.cwiseAbs() - half_extent;
   if (outside.minCoeff() > Real(0) && outside.maxCoeff() < radius) return meet_corner<Real>(offset, velocity, half_extent, radius, offset, limit);
   const auto entry = enter_box<Real>(offset, velocity, half_extent + Vector<Real>::Constant(radius));
