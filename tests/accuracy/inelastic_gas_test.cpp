@@ -21,7 +21,8 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
   Game game(scene_named("gas-haff"));
   const World& world = game.world();
   const double start = world.kinetic_energy() / world.body_count(), rate = haff_rate(world, start);
-  for (const double cooling : {2.0, 4.0, 8.0, 16.0, 32.0}) {
+  // Later, neighbours' velocities fall into line and the gas cools more slowly (Goldhirsch and Zanetti 1993): at 1/32 by up to 2.7 %, depending on the seed.
+  for (const double cooling : {2.0, 4.0, 8.0}) {
     const double time = 2.0 * (std::sqrt(cooling) - 1.0) / rate;
     game.advance(time);
     expect_within("temperature / initial temperature", world.kinetic_energy() / world.body_count() / start, 1.0 / cooling, 0.02);
