@@ -45,7 +45,11 @@ std::string setting_text(const Experiment& experiment, std::span<const RunRecord
                      view_text(experiment) + "; ";
   if (experiment.transport == TransportKind::tcp) text += "processes over TCP; ";
   else text += "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other; ";
-  return text + std::to_string(runs.size()) + " of " + std::to_string(cells_of(experiment).size()) + " cells run, " + std::to_string(valid) + " valid.";
+  // A search runs cells of its own choice beside those of the experiment.
+  const std::vector<Cell> cells = cells_of(experiment);
+  const bool is_plan = std::all_of(runs.begin(), runs.end(), [&cells](const RunRecord& run) { return std::find(cells.begin(), cells.end(), run.cell) != cells.end(); });
+  const std::string count = std::to_string(runs.size());
+  return text + (is_plan ? count + " of " + std::to_string(cells.size()) + " cells run, " : count + " runs, ") + std::to_string(valid) + " valid.";
 }
 
 const std::string* fact(const Provenance& provenance, const std::string& name) {
