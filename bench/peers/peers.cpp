@@ -28,7 +28,7 @@ const char* package_of(const std::string& name) { return name == chipmunk ? "lib
 
 bool is_built_in(const std::string& name) { return version_of(name) != "absent"; }
 
-std::string version_of(const std::string& name) {
+std::string version_of([[maybe_unused]] const std::string& name) {
 #ifdef RINK_HAS_CHIPMUNK
   if (name == chipmunk) return chipmunk_version();
 #endif
