@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace rink::physics {
@@ -31,15 +32,14 @@ enum class BodyKind : std::uint8_t { puck, bat, post };
 /// The index of a material in WorldSpec::restitution.
 using MaterialId = std::uint8_t;
 
-/// How much of the closing speed an impact gives back, per pair of materials: symmetric, each entry in [0, 1].
-class RestitutionTable {
+/// One number of 0 or more for each pair of materials, symmetric.
+class PairTable {
  public:
-  explicit RestitutionTable(std::size_t material_count = 1, double everywhere = 1.0)
-      : material_count_(material_count), values_(material_count * material_count, everywhere) {
-    assert(material_count > 0 && material_count <= 256 && everywhere >= 0.0 && everywhere <= 1.0);
+  explicit PairTable(std::size_t material_count = 1, double everywhere = 0.0) : material_count_(material_count), values_(material_count * material_count, everywhere) {
+    assert(material_count > 0 && material_count <= 256 && everywhere >= 0.0);
   }
   void set(MaterialId a, MaterialId b, double value) {
-    assert(a < material_count_ && b < material_count_ && value >= 0.0 && value <= 1.0);
+    assert(a < material_count_ && b < material_count_ && value >= 0.0);
     values_[a * material_count_ + b] = values_[b * material_count_ + a] = value;
   }
   double operator()(MaterialId a, MaterialId b) const { return values_[a * material_count_ + b]; }
@@ -48,6 +48,23 @@ class RestitutionTable {
  private:
   std::size_t material_count_;
   std::vector<double> values_;
+};
+
+/// How much of the closing speed an impact gives back, per pair of materials: symmetric, each entry in [0, 1].
+class RestitutionTable : public PairTable {
+ public:
+  explicit RestitutionTable(std::size_t material_count = 1, double everywhere = 1.0) : PairTable(material_count, everywhere) { assert(everywhere <= 1.0); }
+  void set(MaterialId a, MaterialId b, double value) {
+    assert(value <= 1.0);
+    PairTable::set(a, b, value);
+  }
+};
+
+/// What surfaces do to each other sideways at an impact (docs/physics.md, "Spin"): the tangential impulse is at most `coefficient` times the normal one (the surfaces
+/// slide), and less if that suffices to turn their relative speed into -`tangential_restitution` of it (they stick).
+struct SurfaceFriction {
+  PairTable coefficient;              ///< 0 or more; 0 is smooth
+  RestitutionTable tangential_restitution{1, 0.0};
 };
 
 /// The table [0, length] x [0, width] in metres. Goals are openings of `goal_width`, centred in the end walls x = 0 and x = length; 0 means none. The edges of an
@@ -65,7 +82,10 @@ struct WorldSpec {
   Field field;
   double puck_drag = 0.0;  ///< dv/dt = -puck_drag v for every puck [1/s], 0 or more
   double bat_drag = 0.0;   ///< likewise for every bat
+  double puck_friction = 0.0;  ///< Coulomb friction of every puck with the table: the deceleration mu g along its velocity until it rests [m/s^2], 0 or more
   RestitutionTable restitution;
+  std::optional<SurfaceFriction> surface_friction;  ///< absent: surfaces are smooth and nothing spins; tables are as large as `restitution`
+  bool accounts_energy = false;                     ///< keep the books behind World::dissipated(); never changes the motion
   double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world choose. Changes cost, never results.
 };
 
@@ -74,6 +94,7 @@ struct PuckSpec {
   double radius = 0.04;                            ///< m, above 0
   double mass = 1.0;                               ///< kg, above 0
   MaterialId material = 0;
+  double spin = 0.0;                               ///< rad/s, anticlockwise; 0 where surfaces are smooth
 };
 
 /// A disc that never moves; radius 0 or more.

@@ -7,10 +7,10 @@
 
 namespace rink::physics {
 
-/// What can happen to a body; `rest` is the beginning of a rest contact, `release` its end.
-enum class EventKind : std::uint8_t { puck_puck, post, wall, puck_bat, bat_bat, goal, thrust, rest, release, hop, freeze };
+/// What can happen to a body; `rest` is the beginning of a rest contact, `release` its end, `stop` where friction has brought a puck to rest.
+enum class EventKind : std::uint8_t { puck_puck, post, wall, puck_bat, bat_bat, goal, thrust, rest, release, hop, freeze, stop };
 /// As they stand in files, in order of the enumeration.
-inline constexpr std::array event_kind_names{"puck_puck", "post", "wall", "puck_bat", "bat_bat", "goal", "thrust", "rest", "release", "hop", "freeze"};
+inline constexpr std::array event_kind_names{"puck_puck", "post", "wall", "puck_bat", "bat_bat", "goal", "thrust", "rest", "release", "hop", "freeze", "stop"};
 /// Whether two things met.
 constexpr bool is_impact(EventKind kind) { return kind <= EventKind::bat_bat; }
 
@@ -27,6 +27,7 @@ struct Counters {
   std::uint64_t releases = 0;         ///< rest contacts that ended by a pull or by sliding off an edge
   std::uint64_t hops = 0;             ///< pressed clusters separated as one
   std::uint64_t freezes = 0;          ///< pressed clusters found in static equilibrium
+  std::uint64_t stops = 0;            ///< pucks that friction brought to rest
   std::uint64_t crossings = 0;        ///< bookkeeping: a body changed its grid cell
   std::uint64_t stale_events = 0;     ///< bookkeeping: an event whose partner had changed course
   std::uint64_t predictions = 0;      ///< pairs of bodies looked at
@@ -35,7 +36,7 @@ struct Counters {
 
   /// Physical events: all that rewrote the state of a body.
   std::uint64_t events() const {
-    return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts + goals + thrust_changes + releases + hops + freezes;
+    return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts + goals + thrust_changes + releases + hops + freezes + stops;
   }
   /// Impacts of any kind.
   std::uint64_t impacts() const { return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts; }
@@ -45,7 +46,7 @@ struct Counters {
 /// The counter of each kind of event.
 inline constexpr std::array<std::uint64_t Counters::*, event_kind_names.size()> counter_of_kind{
     &Counters::disc_impacts, &Counters::post_impacts, &Counters::wall_impacts, &Counters::bat_impacts, &Counters::bat_bat_impacts, &Counters::goals,
-    &Counters::thrust_changes, &Counters::rests, &Counters::releases, &Counters::hops, &Counters::freezes};
+    &Counters::thrust_changes, &Counters::rests, &Counters::releases, &Counters::hops, &Counters::freezes, &Counters::stops};
 
 inline std::uint64_t& Counters::of(EventKind kind) { return this->*counter_of_kind[static_cast<std::size_t>(kind)]; }
 

@@ -16,15 +16,17 @@ template <class Real>
 BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
+  assert(spec.puck_friction >= 0.0 && (!is_rough() || (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
+                                                       spec.surface_friction->tangential_restitution.material_count() == spec.restitution.material_count())));
   tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
-  has_free_impacts_ = spec.puck_drag == 0.0;
+  has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() && !spec.accounts_energy;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
 template <class Real>
 BasicMotion<Real> BasicEngine<Real>::motion(std::uint32_t body) const {
   const Body& b = bodies_[body];
-  return {b.time, {b.x, b.y}, {b.vx, b.vy}, laws_[body].acceleration, laws_[body].drag};
+  return {b.time, {b.x, b.y}, {b.vx, b.vy}, laws_[body].acceleration, laws_[body].drag, is_slowed() ? rest_times_[body] : infinity};
 }
 
 template <class Real>
@@ -36,7 +38,8 @@ BasicRoundedBox<Real> BasicEngine<Real>::shape_of(std::uint32_t a, std::uint32_t
 }
 
 template <class Real>
-BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half) {
+BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half,
+                              Real spin) {
   assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
   assert(is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
@@ -48,6 +51,9 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
   rhythms_.emplace_back();
   jams_.push_back(0);
   write_law(body);
+  if (is_rough()) spins_.push_back(spin);
+  if (is_slowed()) rest_times_.push_back(infinity), slide(body);
+  if (spec_.accounts_energy) introduced_.add(energy_of(body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
   grid_.resize(count);
@@ -98,6 +104,7 @@ void BasicEngine<Real>::remove(std::uint32_t body) {
     wake(body, now_);
     for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, now_);
     rebase(body, now_);
+    if (spec_.accounts_energy) introduced_.add(-energy_of(body));
     grid_.remove(body);
     queue_.set(body, infinity, body, body);
   }
@@ -113,6 +120,8 @@ void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position, const
   b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
   enter_mouth_if_inside(puck);
+  if (is_rough()) spins_[puck] = 0.0;
+  if (spec_.accounts_energy) introduced_.add(energy_of(puck));
   grid_.insert(puck, static_cast<double>(b.x), static_cast<double>(b.y));
   touch(puck);
   settle();
@@ -166,6 +175,7 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
   }
   if (p == partner::goal_line) score(body, time);
   else if (p == partner::release) release(body, time);
+  else if (p == partner::stop) stop(body, time);
   else if (p == partner::mouth_in || p == partner::mouth_out) {
     rebase_companions(body, time);
     bodies_[body].mouth = p == partner::mouth_out ? no_mouth : bodies_[body].x < 0.5 * spec_.field.length ? left_mouth : right_mouth;
@@ -175,6 +185,9 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
 
 template <class Real>
 void BasicEngine<Real>::settle() {
+  if (spec_.accounts_energy) enter_impacts();
+  if (is_slowed())
+    for (const std::uint32_t body : touched_) slide(body);
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);
@@ -197,11 +210,20 @@ void BasicEngine<Real>::cross_cell(std::uint32_t body) {
 }
 
 template <class Real>
+void BasicEngine<Real>::stop(std::uint32_t body, Real time) {
+  note(EventKind::stop, time, body);
+  wake(body, time);
+  rebase_companions(body, time);
+  bodies_[body].vx = bodies_[body].vy = 0.0;  // one too slow to move before the next instant that a clock can show was not evaluated
+}
+
+template <class Real>
 void BasicEngine<Real>::score(std::uint32_t body, Real time) {
   note(EventKind::goal, time, body);
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   rebase(body, time);
+  if (spec_.accounts_energy) introduced_.add(-energy_of(body));
   Body& b = bodies_[body];
   b.flags |= out_of_play;
   b.mouth = no_mouth;

@@ -9,6 +9,7 @@
 #include "game/physics/impact_time.h"
 #include "game/physics/large_pages.h"
 #include "game/physics/straight_flight.h"
+#include "game/physics/sum.h"
 #include "game/physics/world.h"
 
 namespace rink::physics {
@@ -31,6 +32,7 @@ constexpr Partner edge_left_low = field_parts + 5, edge_left_high = field_parts 
 constexpr Partner mouth_in = field_parts + 9, mouth_out = field_parts + 10;  ///< a puck passes between the edges of a goal
 constexpr Partner goal_line = field_parts + 11;
 constexpr Partner release = field_parts + 12;  ///< a rest contact ends
+constexpr Partner stop = field_parts + 13;     ///< friction has brought a puck to rest
 }  // namespace partner
 
 /// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
@@ -50,7 +52,7 @@ class BasicEngine {
  public:
   explicit BasicEngine(const WorldSpec& spec);
 
-  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half);
+  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half, Real spin);
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const Vector2& acceleration);
   void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
@@ -61,6 +63,9 @@ class BasicEngine {
   Real kinetic_energy() const;
   Vector2 momentum() const;
   Real max_overlap() const;
+  Real spin(std::uint32_t body) const { return is_rough() ? spins_[body] : 0.0; }
+  Real work_of_thrust() const;
+  Real dissipated() const;
   std::uint64_t hash() const;
 
  private:
@@ -138,6 +143,7 @@ class BasicEngine {
   void process(std::uint32_t body, Real time);
   void settle();
   void score(std::uint32_t body, Real time);
+  void stop(std::uint32_t body, Real time);
   /// Counts the event, and records it if it is wanted.
   void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
     ++counters_.of(kind);
@@ -151,6 +157,8 @@ class BasicEngine {
   void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
   Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
   void touch(std::uint32_t body);
+  bool is_slowed() const { return spec_.puck_friction > 0.0; }
+  void slide(std::uint32_t body);
   void wake(std::uint32_t body, Real time);
 
   // engine_prediction.cpp
@@ -181,6 +189,8 @@ class BasicEngine {
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
   void bounce(const Contact& contact, Real approach, Real restitution, Real time);
+  bool is_rough() const { return spec_.surface_friction.has_value(); }
+  void rub(const Contact& contact, Real normal_impulse);
   void count_impact(std::uint32_t body, Partner partner, Real time);
   void note_impact(std::uint32_t body, Real time);
 
@@ -197,6 +207,8 @@ class BasicEngine {
   void dissolve(std::uint32_t body, int axis, Real time);
   void release(std::uint32_t body, Real time);
   Real slide_time(const Hold& hold) const;
+  bool would_drive_pucks(const Contact& contact) const;
+  bool drives_pucks(int axis, const std::vector<std::uint32_t>& members) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
   void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
 
@@ -209,6 +221,15 @@ class BasicEngine {
   bool freeze(Real thrust_max);
   void solve_cluster(Real separation);
 
+  // engine_energy.cpp: the books of energy, of worlds that keep them
+  struct Expense {
+    Real work, loss;  // J
+  };
+  Real energy_of(std::uint32_t body) const;
+  Expense expense_until(std::uint32_t body, Real time) const;
+  void enter_expense(std::uint32_t body, Real time);
+  void enter_impacts();
+
   WorldSpec spec_;
   Real now_ = 0.0;
   Real tolerance_;  // rounding error of an offset [m]
@@ -219,6 +240,8 @@ class BasicEngine {
   std::vector<Build> builds_;
   std::vector<Rhythm> rhythms_;
   std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
+  std::vector<Real> rest_times_;     // of worlds with friction: when it will have brought the body to rest
+  std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
   EventQueue queue_;
@@ -235,6 +258,8 @@ class BasicEngine {
   std::vector<Real> accelerations_;
   std::optional<Goal> goal_;
   Counters counters_;
+  BasicSum<Real> introduced_, work_, loss_;
+  std::vector<Real> energies_;       // of the bodies in touched_, before what happens to them now
   bool records_events_ = false;
   std::vector<Event> events_;
 };

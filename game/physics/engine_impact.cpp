@@ -105,7 +105,7 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
 template <class Real>
 void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
-    if (c.gap.normal[axis] == 0.0) continue;
+    if (c.gap.normal[axis] == 0.0 && !is_rough()) continue;
     dissolve(c.body, axis, time);
     if (is_body(c.partner)) dissolve(c.partner, axis, time);
   }
@@ -113,6 +113,7 @@ void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back,
   const Real separation = std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()));
   const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
   const Real impulse = std::max<Real>(0.0, approach + separation) / (own + other);
+  if (is_rough()) return rub(c, impulse);
   Body& b = bodies_[c.body];
   b.vx = here.x() + impulse * own * c.gap.normal.x();
   b.vy = here.y() + impulse * own * c.gap.normal.y();
@@ -120,6 +121,29 @@ void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back,
   Body& p = bodies_[c.partner];
   p.vx = there.x() - impulse * other * c.gap.normal.x();
   p.vy = there.y() - impulse * other * c.gap.normal.y();
+}
+
+/// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O. R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").
+template <class Real>
+void BasicEngine<Real>::rub(const Contact& c, Real normal_impulse) {
+  const Vector2 &normal = c.gap.normal, tangent(-normal.y(), normal.x());
+  const bool is_partner_moved = inverse_mass(c.partner) > 0.0;
+  const auto turns = [&](Partner p) { return is_body(p) && bodies_[p].kind == BodyKind::puck; };
+  const auto rim_speed = [&](Partner p) { return turns(p) ? spins_[p] * bodies_[p].radius : Real(0.0); };
+  // Of a uniform disc, 1/m + r^2/I = 3/m.
+  const auto yielding = [&](Partner p) { return (turns(p) ? 3.0 : 1.0) * inverse_mass(p); };
+  const MaterialId own = bodies_[c.body].material, other = is_body(c.partner) ? bodies_[c.partner].material : spec_.field.wall;
+  const Real slip = tangent.dot(velocity_of(c.body) - velocity_of(c.partner)) - (rim_speed(c.body) + rim_speed(c.partner));
+  const Real stick = (1.0 + Real(spec_.surface_friction->tangential_restitution(own, other))) * std::abs(slip) / (yielding(c.body) + yielding(c.partner));
+  const Real rubbing = -std::copysign(std::min<Real>(stick, spec_.surface_friction->coefficient(own, other) * normal_impulse), slip);
+  const Vector2 impulse = normal_impulse * normal + rubbing * tangent;
+  const auto kick = [&](std::uint32_t body, Real sign) {
+    Body& b = bodies_[body];
+    b.vx += sign * inverse_mass(body) * impulse.x(), b.vy += sign * inverse_mass(body) * impulse.y();
+    if (turns(body)) spins_[body] -= 2.0 * inverse_mass(body) * rubbing / b.radius;
+  };
+  kick(c.body, 1.0);
+  if (is_partner_moved) kick(c.partner, -1.0);
 }
 
 template <class Real>

@@ -45,6 +45,7 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
 template <class Real>
 void BasicEngine<Real>::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
+  if (is_slowed() && rest_times_[body] < infinity) offer(body, rest_times_[body], partner::stop);
   if ((b.flags & held) != 0) predict_release(body);
   if ((b.flags & curved) != 0) predict_curved_walls(body);
   else predict_flight(body);

@@ -27,6 +27,8 @@ Real BasicEngine<Real>::kinetic_energy() const {
   Real sum = 0.0;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body)
     if (!is_gone(body) && builds_[body].inverse_mass > 0.0) sum += 0.5 * builds_[body].mass * at(body, now_).velocity.squaredNorm();
+  for (std::uint32_t body = 0; body < spins_.size(); ++body)
+    if (!is_gone(body) && bodies_[body].kind == BodyKind::puck) sum += 0.25 * builds_[body].mass * std::pow(bodies_[body].radius * spins_[body], 2);
   return sum;
 }
 
@@ -72,6 +74,7 @@ std::uint64_t BasicEngine<Real>::hash() const {
     if ((b.flags & curved) != 0)
       for (int axis = 0; axis < 2; ++axis) mix(laws_[body].acceleration[axis]), mix(laws_[body].drag[axis]);
     mix(b.flags & (gone | held | frozen));
+    if (is_rough()) mix(spins_[body]);
   }
   return hash;
 }

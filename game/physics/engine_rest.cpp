@@ -37,9 +37,25 @@ std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body, std
   return found;
 }
 
+/// Friction of a puck that others push turns with its velocity, and such a motion has no closed form: pucks that friction slows rest on what is fixed, or not at all.
+template <class Real>
+bool BasicEngine<Real>::drives_pucks(int axis, const std::vector<std::uint32_t>& members) const {
+  if (!is_slowed() || is_group_fixed(axis, members)) return false;
+  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) { return bodies_[member].kind == BodyKind::puck; });
+}
+
+template <class Real>
+bool BasicEngine<Real>::would_drive_pucks(const Contact& c) const {
+  if (!is_slowed() || is_fixed(c.partner)) return false;
+  std::vector<std::uint32_t> members = companions(c.body, held_along(c.gap.face));
+  const std::vector<std::uint32_t> others = companions(c.partner, held_along(c.gap.face));
+  members.insert(members.end(), others.begin(), others.end());
+  return drives_pucks(c.gap.face, members);
+}
+
 template <class Real>
 bool BasicEngine<Real>::can_rest(const Contact& c) const {
-  if (c.gap.face < 0) return false;
+  if (c.gap.face < 0 || would_drive_pucks(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
   const Real extent = shape_of(c.body, c.partner).half_extent[along];
@@ -130,7 +146,15 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
     const std::vector<std::uint32_t> part = companions(member, held_along(axis));
-    share_part(axis, part, time);
+    if (part.size() > 1 && drives_pucks(axis, part)) {
+      const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
+      for (const Hold& hold : holds_)
+        if (is_in_part(hold)) note_release(hold, time);
+      std::erase_if(holds_, is_in_part);
+      for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
+    } else {
+      share_part(axis, part, time);
+    }
     done.insert(done.end(), part.begin(), part.end());
   }
 }

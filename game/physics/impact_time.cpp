@@ -27,10 +27,11 @@ auto BasicRelativeMotion<Real>::at(Real time) const -> Sample {
 
 template <class Real>
 Real closing_acceleration_max(const BasicRelativeMotion<Real>& motion, const typename BasicRelativeMotion<Real>::Sample& sample, const BasicVector2<Real>& normal) {
+  const bool rests_first_a = motion.a.rest_time < motion.b.rest_time, rests_first_b = motion.b.rest_time < motion.a.rest_time;
   Real sum = 0.0;
   for (int axis = 0; axis < 2; ++axis) {
     const Real away_b = normal[axis] * sample.acceleration_b[axis], towards_a = normal[axis] * sample.acceleration_a[axis];
-    if (motion.a.drag[axis] == motion.b.drag[axis]) sum += std::max<Real>(0.0, towards_a - away_b);
+    if (motion.a.drag[axis] == motion.b.drag[axis]) sum += std::max<Real>({0.0, towards_a - away_b, rests_first_a ? -away_b : 0.0, rests_first_b ? towards_a : 0.0});
     else sum += std::max<Real>(0.0, towards_a) + std::max<Real>(0.0, -away_b);
   }
   return sum;

@@ -82,7 +82,8 @@ template <class Real, class Shape>
 std::optional<Real> first_contact(const BasicRelativeMotion<Real>& motion, const Shape& shape, std::type_identity_t<Real> start, std::type_identity_t<Real> limit,
                                   std::type_identity_t<Real> tolerance);
 
-/// The largest closing acceleration along `normal` that may act from the sample's time on [m/s^2], at least 0. Accelerations that fade at the same rate are taken together.
+/// The largest closing acceleration along `normal` that may act from the sample's time on [m/s^2], at least 0. Accelerations that fade at the same rate are taken
+/// together, and for what comes after one of the bodies has come to rest that of the other alone.
 template <class Real>
 Real closing_acceleration_max(const BasicRelativeMotion<Real>& motion, const typename BasicRelativeMotion<Real>::Sample& sample, const BasicVector2<Real>& normal);
 

@@ -1,6 +1,8 @@
 // Warped time and the motion under thrust and linear drag.
 #include "game/physics/motion.h"
 
+#include <cmath>
+
 namespace rink::physics {
 
 namespace {
@@ -42,7 +44,8 @@ template <class Real>
 BasicMotion<Real> BasicMotion<Real>::at(Real instant) const {
   BasicMotion moved = *this;
   moved.time = instant;
-  const Real elapsed = instant - time;
+  const bool is_at_rest = instant >= rest_time;
+  const Real elapsed = (is_at_rest ? rest_time : instant) - time;
   BasicWarpedTime<Real> w{};
   for (int axis = 0; axis < 2; ++axis) {
     if (axis == 0 || drag[axis] != drag[0]) w = warp_unaccelerated(elapsed, drag[axis]);
@@ -50,7 +53,23 @@ BasicMotion<Real> BasicMotion<Real>::at(Real instant) const {
     moved.position[axis] = position[axis] + velocity[axis] * w.s + acceleration[axis] * w.q;
     moved.velocity[axis] = velocity[axis] * w.e + acceleration[axis] * w.s;
   }
+  if (is_at_rest) {
+    moved.velocity = moved.acceleration = BasicVector2<Real>(0.0, 0.0);
+    moved.rest_time = std::numeric_limits<Real>::infinity();
+  }
   return moved;
+}
+
+template <class Real>
+void BasicMotion<Real>::slide(Real friction) {
+  acceleration = BasicVector2<Real>(0.0, 0.0);
+  rest_time = std::numeric_limits<Real>::infinity();
+  if (velocity == acceleration) return;
+  rest_time = time;
+  const Real speed = std::sqrt(velocity.squaredNorm()), rate = velocity.x() != 0.0 ? drag.x() : drag.y();
+  if (speed == 0.0) return;  // its square is below what a scalar holds: at rest at once
+  acceleration = -friction * (velocity / speed);
+  rest_time += rate == 0.0 ? speed / friction : log1p_of(rate * speed / friction) / rate;
 }
 
 template BasicWarpedTime<double> warp(double, double);

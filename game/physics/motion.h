@@ -1,6 +1,7 @@
 // The closed form on which every body moves between two of its events.
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "game/physics/body.h"
@@ -33,9 +34,14 @@ struct BasicMotion {
   BasicVector2<Real> position{0.0, 0.0}, velocity{0.0, 0.0};
   BasicVector2<Real> acceleration{0.0, 0.0};  ///< m/s^2
   BasicVector2<Real> drag{0.0, 0.0};          ///< 1/s
+  Real rest_time = std::numeric_limits<Real>::infinity();  ///< from this instant on the body lies still, which friction brought to rest [s]
 
   /// The same law, re-based at `instant` (not before `time`).
   BasicMotion at(Real instant) const;
+
+  /// Puts the body, which no thrust drives and whose drag is the same along both axes of its motion, under Coulomb friction: it decelerates by `friction` [m/s^2] along
+  /// its velocity until it rests, on a straight line (docs/physics.md, "Friction with the table").
+  void slide(Real friction);
 };
 using Motion = BasicMotion<double>;
 

@@ -20,19 +20,19 @@ BasicWorld<Real>& BasicWorld<Real>::operator=(BasicWorld&&) noexcept = default;
 template <class Real>
 BodyId BasicWorld<Real>::add(const PuckSpec& spec) {
   assert(spec.radius > 0.0);
-  return engine_->add(BodyKind::puck, spec.position.cast<Real>(), spec.velocity.cast<Real>(), spec.radius, {0.0, 0.0}, spec.mass, spec.material, Half::both);
+  return engine_->add(BodyKind::puck, spec.position.cast<Real>(), spec.velocity.cast<Real>(), spec.radius, {0.0, 0.0}, spec.mass, spec.material, Half::both, spec.spin);
 }
 
 template <class Real>
 BodyId BasicWorld<Real>::add(const BatSpec& spec) {
   assert(spec.half_extent.minCoeff() > 0.0);
-  return engine_->add(BodyKind::bat, spec.position.cast<Real>(), spec.velocity.cast<Real>(), 0.0, spec.half_extent.cast<Real>(), spec.mass, spec.material, spec.half);
+  return engine_->add(BodyKind::bat, spec.position.cast<Real>(), spec.velocity.cast<Real>(), 0.0, spec.half_extent.cast<Real>(), spec.mass, spec.material, spec.half, 0.0);
 }
 
 template <class Real>
 BodyId BasicWorld<Real>::add(const PostSpec& spec) {
   assert(spec.radius >= 0.0);
-  return engine_->add(BodyKind::post, spec.position.cast<Real>(), {0.0, 0.0}, spec.radius, {0.0, 0.0}, std::numeric_limits<double>::infinity(), spec.material, Half::both);
+  return engine_->add(BodyKind::post, spec.position.cast<Real>(), {0.0, 0.0}, spec.radius, {0.0, 0.0}, std::numeric_limits<double>::infinity(), spec.material, Half::both, 0.0);
 }
 
 template <class Real>
@@ -110,6 +110,14 @@ template <class Real>
 const Counters& BasicWorld<Real>::counters() const { return engine_->counters_; }
 template <class Real>
 Real BasicWorld<Real>::kinetic_energy() const { return engine_->kinetic_energy(); }
+template <class Real>
+Real BasicWorld<Real>::spin(BodyId body) const { return engine_->spin(body.index); }
+template <class Real>
+Real BasicWorld<Real>::energy_introduced() const { return engine_->introduced_.value(); }
+template <class Real>
+Real BasicWorld<Real>::work_of_thrust() const { return engine_->work_of_thrust(); }
+template <class Real>
+Real BasicWorld<Real>::dissipated() const { return engine_->dissipated(); }
 template <class Real>
 BasicVector2<Real> BasicWorld<Real>::momentum() const { return engine_->momentum(); }
 template <class Real>

@@ -62,6 +62,7 @@ class BasicWorld {
   Real now() const;                      ///< s
   BasicVector2<Real> position(BodyId body) const;     ///< centre at now() [m], evaluated on demand; where it left play for a puck that did
   BasicVector2<Real> velocity(BodyId body) const;     ///< at now() [m/s]
+  Real spin(BodyId body) const;          ///< at now(), anticlockwise [rad/s]; changed by impacts alone
 
   /// Closed form since the body's last event, valid until its next: what a distant replica needs to follow it exactly.
   BasicMotion<Real> motion(BodyId body) const;
@@ -86,7 +87,12 @@ class BasicWorld {
 
   const WorldSpec& spec() const;
   const Counters& counters() const;
-  Real kinetic_energy() const;           ///< of the bodies in play at now() [J]
+  Real kinetic_energy() const;           ///< of the bodies in play at now(), spin included [J]
+  /// The books of energy at now() [J], each from its own closed forms; all 0 unless WorldSpec::accounts_energy. Always kinetic_energy() = energy_introduced() +
+  /// work_of_thrust() - dissipated(), but for rounding.
+  Real energy_introduced() const;        ///< of bodies as they were added or placed, less that of bodies as they were removed or scored
+  Real work_of_thrust() const;
+  Real dissipated() const;               ///< lost to drag, to friction and in impacts
   BasicVector2<Real> momentum() const;                ///< likewise [kg m/s]
   /// The deepest overlap of any two bodies, or of a body and a wall, at now() [m]; 0 if none overlap. Looks at every body.
   Real max_overlap() const;

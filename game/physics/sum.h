@@ -1,0 +1,23 @@
+// A sum of very many numbers that loses no more than one addition does.
+#pragma once
+
+#include <cmath>
+
+namespace rink::physics {
+
+/// Neumaier's compensated summation (Z. Angew. Math. Mech. 54, 1974): what each addition rounds away is kept beside the sum.
+template <class Real>
+class BasicSum {
+ public:
+  void add(Real number) {
+    const Real sum = sum_ + number;
+    lost_ += std::abs(sum_) >= std::abs(number) ? (sum_ - sum) + number : (number - sum) + sum_;
+    sum_ = sum;
+  }
+  Real value() const { return sum_ + lost_; }
+
+ private:
+  Real sum_ = 0.0, lost_ = 0.0;
+};
+
+}  // namespace rink::physics
