@@ -51,6 +51,18 @@ void share(std::vector<Population>& populations, BodyKind kind, std::uint64_t wa
   }
 }
 
+/// A scene without friction has the fingerprint that it had before there was any.
+void add_friction(StateHash& hash, const physics::WorldSpec& world) {
+  if (world.puck_friction > 0.0) hash.add(std::uint64_t{1}), hash.add(world.puck_friction);
+  if (!world.surface_friction) return;
+  hash.add(std::uint64_t{2});
+  const std::size_t count = world.restitution.material_count();
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      for (const physics::PairTable* table : {&world.surface_friction->coefficient, static_cast<const physics::PairTable*>(&world.surface_friction->tangential_restitution)})
+        hash.add((*table)(static_cast<physics::MaterialId>(a), static_cast<physics::MaterialId>(b)));
+}
+
 void add_world(StateHash& hash, const physics::WorldSpec& world) {
   const physics::Field& field = world.field;
   for (const double number : {field.length, field.width, field.goal_width, world.puck_drag, world.bat_drag}) hash.add(number);
@@ -60,6 +72,7 @@ void add_world(StateHash& hash, const physics::WorldSpec& world) {
   hash.add(std::uint64_t{count});
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = 0; b <= a; ++b) hash.add(world.restitution(static_cast<physics::MaterialId>(a), static_cast<physics::MaterialId>(b)));
+  add_friction(hash, world);
 }
 
 void add_bodies(StateHash& hash, const Bodies& bodies) {
@@ -75,6 +88,7 @@ void add_bodies(StateHash& hash, const Bodies& bodies) {
     for (const Vector2& vector : {puck.body.position, puck.body.velocity}) hash.add(vector);
     for (const double number : {puck.body.radius, puck.body.mass}) hash.add(number);
     hash.add(std::uint64_t{puck.body.material});
+    if (puck.body.spin != 0.0) hash.add(puck.body.spin);
   }
   hash.add(std::uint64_t{bodies.pucks.size()});
 }

@@ -29,6 +29,7 @@ class SceneReader {
     read_materials();
     read_field();
     read_drag();
+    read_friction();
     read_match();
     for (SceneTable& table : root_.tables("post")) read_post(table);
     for (SceneTable& table : root_.tables("bat")) read_bat(table);
@@ -46,25 +47,39 @@ class SceneReader {
   void read_materials() {
     std::optional<SceneTable> table = root_.table("materials");
     if (!table) return;
-    double everywhere = 1.0;
+    double everywhere = 1.0, friction = 0.0, tangential = 0.0;
     table->texts("names", scene_.materials);
     if (scene_.materials.size() > 256) table->refuse("names", "at most 256 names");
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (std::count(scene_.materials.begin(), scene_.materials.end(), scene_.materials[i]) > 1) table->refuse("names", "each name once");
     table->number("restitution", everywhere, part_of_one);
-    scene_.world.restitution = physics::RestitutionTable(scene_.materials.size(), everywhere);
-    for (SceneTable& pair : table->tables("pair")) read_pair(pair);
+    table->number("friction", friction, from_zero);
+    table->number("tangential_restitution", tangential, part_of_one);
+    const std::size_t count = scene_.materials.size();
+    scene_.world.restitution = physics::RestitutionTable(count, everywhere);
+    physics::SurfaceFriction surfaces{physics::PairTable(count, friction), physics::RestitutionTable(count, tangential)};
+    bool is_rough = friction > 0.0;
+    for (SceneTable& pair : table->tables("pair")) is_rough = read_pair(pair, surfaces) || is_rough;
     table->finish();
+    if (is_rough) scene_.world.surface_friction = surfaces;
   }
 
-  void read_pair(SceneTable& pair) {
+  /// Whether the pair has friction.
+  bool read_pair(SceneTable& pair, physics::SurfaceFriction& surfaces) {
     std::vector<std::string> between;
-    double restitution = 1.0;
+    double number = 1.0;
     if (!pair.texts("between", between)) pair.refuse_all("lacks the key between: expected two materials");
     if (between.size() != 2) pair.refuse("between", "two materials");
-    pair.require_number("restitution", restitution, part_of_one);
-    scene_.world.restitution.set(material_named(pair, "between", between[0]), material_named(pair, "between", between[1]), restitution);
+    const MaterialId a = material_named(pair, "between", between[0]), b = material_named(pair, "between", between[1]);
+    const bool has_restitution = pair.number("restitution", number, part_of_one);
+    if (has_restitution) scene_.world.restitution.set(a, b, number);
+    const bool has_tangential = pair.number("tangential_restitution", number, part_of_one);
+    if (has_tangential) surfaces.tangential_restitution.set(a, b, number);
+    const bool has_friction = pair.number("friction", number, from_zero);
+    if (has_friction) surfaces.coefficient.set(a, b, number);
+    if (!has_restitution && !has_tangential && !has_friction) pair.refuse_all("says nothing of the pair: expected restitution, friction or tangential_restitution");
     pair.finish();
+    return has_friction && number > 0.0;
   }
 
   MaterialId material_named(const SceneTable& table, const char* key, const std::string& name) const {
@@ -97,6 +112,14 @@ class SceneReader {
     if (!table) return;
     table->number("pucks", scene_.world.puck_drag, from_zero);
     table->number("bats", scene_.world.bat_drag, from_zero);
+    table->finish();
+  }
+
+  void read_friction() {
+    std::optional<SceneTable> table = root_.table("friction");
+    if (!table) return;
+    table->number("pucks", scene_.world.puck_friction, from_zero);
+    if (table->has("bats")) table->refuse("bats", "pucks only: thrust and Coulomb friction together have no closed form");
     table->finish();
   }
 
@@ -150,6 +173,7 @@ class SceneReader {
     table.number("radius", puck.body.radius, above_zero);
     table.number("mass", puck.body.mass, above_zero);
     read_material(table, "material", puck.body.material);
+    if (table.number("spin", puck.body.spin) && !scene_.world.surface_friction) table.refuse("spin", "friction above 0 in [materials], for without it no impact feels spin");
     table.finish();
     scene_.placed.pucks.push_back(puck);
   }

@@ -89,6 +89,61 @@ is_down = true
   EXPECT_EQ(scene.keys, (std::vector<InputEvent>{{1.5, 0, InputKind::key_down, Key::up}}));
 }
 
+TEST(SceneFile, HoldsFrictionOfTheTableAndOfSurfaces) {
+  const Scene scene = small_scene(R"(
+[materials]
+names = ["ice", "board", "rubber"]
+restitution = 0.9
+friction = 0.125
+tangential_restitution = 0.25
+[[materials.pair]]
+between = ["ice", "rubber"]
+friction = 0.75
+[[materials.pair]]
+between = ["board", "rubber"]
+restitution = 0.5
+tangential_restitution = 0.5
+[friction]
+pucks = 0.25
+[[puck]]
+position = [1.0, 1.5]
+spin = -3.0
+)");
+  EXPECT_EQ(scene.world.puck_friction, 0.25);
+  ASSERT_TRUE(scene.world.surface_friction);
+  EXPECT_EQ(scene.world.surface_friction->coefficient(0, 1), 0.125);
+  EXPECT_EQ(scene.world.surface_friction->coefficient(2, 0), 0.75);
+  EXPECT_EQ(scene.world.surface_friction->tangential_restitution(2, 0), 0.25);
+  EXPECT_EQ(scene.world.surface_friction->tangential_restitution(1, 2), 0.5);
+  EXPECT_EQ(scene.world.restitution(1, 2), 0.5);
+  EXPECT_EQ(scene.world.restitution(0, 2), 0.9);
+  EXPECT_EQ(scene.bodies.pucks[0].body.spin, -3.0);
+}
+
+TEST(SceneFile, LacksSpinWhereNoPairOfMaterialsHasFriction) {
+  const Scene scene = small_scene("[materials]\nnames = [\"ice\"]\nfriction = 0.0\ntangential_restitution = 0.5\n");
+  EXPECT_FALSE(scene.world.surface_friction);
+  EXPECT_EQ(scene.world.puck_friction, 0.0);
+}
+
+TEST(SceneFile, HasAFingerprintThatTellsFrictionAndSpin) {
+  const std::string materials = "[materials]\nnames = [\"ice\"]\nfriction = 0.5\n", puck = "[[puck]]\nposition = [1.0, 1.0]\n";
+  const std::uint64_t fingerprints[] = {fingerprint(small_scene(puck)), fingerprint(small_scene("[friction]\npucks = 0.25\n" + puck)), fingerprint(small_scene(materials + puck)),
+                                        fingerprint(small_scene(materials + "tangential_restitution = 0.5\n" + puck)), fingerprint(small_scene(materials + puck + "spin = 1.0\n"))};
+  for (std::size_t i = 0; i < std::size(fingerprints); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(fingerprints[i], fingerprints[j]) << i << " " << j;
+}
+
+TEST(SceneFile, RefusesFrictionThatHasNoMeaning) {
+  EXPECT_THAT(refusal_in_field("[friction]\nbats = 0.1\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.bats is 0.1"), HasSubstr("no closed form")));
+  EXPECT_THAT(refusal_in_field("[friction]\npucks = -0.1\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.pucks is -0.1"), HasSubstr("from 0 up")));
+  EXPECT_THAT(refusal_in_field("[friction]\npucks = inf\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.pucks is inf")));
+  EXPECT_THAT(refusal_in_field("[materials]\nfriction = -1.0\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("materials.friction is -1")));
+  EXPECT_THAT(refusal_in_field("[materials]\ntangential_restitution = 1.5\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("from 0 to 1")));
+  EXPECT_THAT(refusal_in_field("[materials]\nnames = [\"ice\"]\n[[materials.pair]]\nbetween = [\"ice\", \"ice\"]\n"), AllOf(HasSubstr("bad.toml:6"), HasSubstr("restitution, friction or")));
+  EXPECT_THAT(refusal_in_field("[[puck]]\nposition = [1.0, 1.0]\nspin = 2.0\n"), AllOf(HasSubstr("bad.toml:6"), HasSubstr("spin is 2"), HasSubstr("friction above 0")));
+}
+
 TEST(SceneFile, RefusesWhatIsNotTomlByLine) { EXPECT_THAT(refusal("[field]\nlength = = 3\n"), AllOf(HasSubstr("bad.toml:2"), HasSubstr("not TOML"))); }
 
 TEST(SceneFile, RefusesUnknownKeysAndNamesTheNearestKnownOne) {
