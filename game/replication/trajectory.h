@@ -9,7 +9,8 @@
 
 namespace rink::game {
 
-/// A physics::Motion as receivers get it. Its time is a multiple of `trajectory_time_step`, so it may start a little before the event that it follows.
+/// A physics::Motion as receivers get it; its acceleration is that of thrust alone, for friction follows from the velocity. Its time is a multiple of
+/// `trajectory_time_step`, so it may start a little before the event that it follows.
 struct Trajectory {
   static constexpr double of_its_kind = -1.0;  ///< a drag that the receiver knows: that of all pucks, or of all bats
   double time = 0.0;                           ///< s
@@ -19,15 +20,24 @@ struct Trajectory {
   bool is_resting() const { return velocity.isZero(0.0) && acceleration.isZero(0.0); }
 };
 
-/// The drag of pucks and of bats [1/s], as the field tells it.
+/// What slows all entities of a kind down.
+struct Resistance {
+  double drag = 0.0;      ///< linear [1/s]
+  double friction = 0.0;  ///< Coulomb's, with the table [m/s^2]
+};
+
+/// The resistance of pucks and of bats, as the field tells it.
 struct Drag {
-  double pucks = 0.0, bats = 0.0;
-  double of(physics::BodyKind kind) const { return kind == physics::BodyKind::bat ? bats : pucks; }
+  double pucks = 0.0, bats = 0.0;  ///< 1/s
+  double puck_friction = 0.0;      ///< m/s^2
+  Resistance of(physics::BodyKind kind) const { return kind == physics::BodyKind::bat ? Resistance{bats, 0.0} : Resistance{pucks, puck_friction}; }
 };
 
 template <class Stream>
 bool exchange(Stream& stream, Drag& drag) {
-  return stream.finite(drag.pucks) && stream.finite(drag.bats) && drag.pucks >= 0.0 && drag.bats >= 0.0;
+  for (double* number : {&drag.pucks, &drag.bats, &drag.puck_friction})
+    if (!stream.finite(*number) || *number < 0.0) return false;
+  return true;
 }
 
 /// False for what no body can follow: a number that is not finite, or a drag below 0 that is not `of_its_kind`.
@@ -58,8 +68,8 @@ inline double single_precision(double value) {
 /// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);
 
-/// The law that a receiver who knows `own_drag` follows; it must not be asked for instants before its time.
-physics::Motion motion_of(const Trajectory& trajectory, double own_drag);
+/// The law that a receiver who knows the `own` resistance of the entity's kind follows; it must not be asked for instants before its time.
+physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);
 
 /// The last instant up to which `told` is within `trajectory_error_max` of `body` if nothing happens to it, and no older than `trajectory_age_max`; before world.now()
 /// if `told` has the wrong law or is too far off already.

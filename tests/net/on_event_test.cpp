@@ -103,6 +103,21 @@ TEST(OnEvent, WithoutDragATrajectoryIsToldAgainBeforeRoundingLeadsItAstray) {
   EXPECT_GT(error.greatest, 0.3 * trajectory_error_max) << "or the test shows nothing";
 }
 
+TEST(OnEvent, MirrorsFollowPucksThatFrictionBringsToRest) {
+  Scene scene = small_crowd();
+  scene.world.puck_friction = 0.4;
+  for (const double drag : {0.0, 0.25}) {
+    scene.world.puck_drag = drag;
+    LockstepRink rink(scene, {.clients = 6, .view_fraction = 0.5, .server = {.policy = "on-event", .replay = keys_for(scene, 5, 5.0)}});
+    rink.start();
+    Error error;
+    follow(rink, 300, error);
+    EXPECT_GT(error.count, 5'000u);
+    EXPECT_EQ(rink.client(0).mirror().drag().puck_friction, 0.4);
+    EXPECT_GT(rink.server().game().world().counters().stops, 50u) << "or the test shows nothing";
+  }
+}
+
 TEST(OnEvent, MirrorsFollowGoalsAndFaceOffs) {
   Scene scene = match();
   scene.world.field.goal_width = 0.8;
