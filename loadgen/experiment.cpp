@@ -170,7 +170,7 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
   reader.whole_numbers("sweep_ticks", result.sweep_ticks, 0, 1000);
   reader.numbers("view_fraction", result.view_fractions, "numbers above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; });
   reader.numbers("view_margin", result.view_margins, "numbers from 0 to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
-  reader.numbers("cell_size", result.cell_sizes, "numbers from 0 (the scheme chooses) to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
+  reader.numbers("cell_size", result.cell_sizes, "numbers from 0.001 to 1e6, or 0 (the scheme chooses)", [](double v) { return v == 0.0 || (v >= 1e-3 && v <= 1e6); });
 }
 
 void read_setting(ExperimentReader& reader, Experiment& result, const std::filesystem::path& file) {

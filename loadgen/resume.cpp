@@ -29,7 +29,11 @@ Continuation continued_in(const std::filesystem::path& path, const Experiment& e
   const std::filesystem::path file = path / "runs.jsonl";
   std::error_code is_missing;
   const auto size = std::filesystem::file_size(file, is_missing);
-  if (is_missing || size == 0) return {ResultsDirectory(path, false), {}, path.string() + ": nothing to go on with, starting afresh\n"};
+  if (is_missing || size == 0) {
+    if (!is_forced && std::filesystem::exists(path / "summary.csv"))
+      throw OutputError(file.string() + ": holds no runs to go on with, and other results stand beside it; choose another --out, or replace them with --resume --force");
+    return {ResultsDirectory(path, is_forced), {}, path.string() + ": nothing to go on with, starting afresh\n"};
+  }
   const Journal journal = read_journal(file);
   const std::string mismatch = mismatch_of(journal, own);
   std::string said;

@@ -169,7 +169,9 @@ void read_truth(LineReader& line, TruthFigures& truth) {
 
 std::optional<JournalHead> head_of(const nlohmann::json& line) {
   if (!line.is_object() || !line.contains("provenance") || !line["provenance"].is_object()) return std::nullopt;
-  JournalHead head{line.value("experiment", ""), line.value("commit", ""), {}};
+  for (const char* name : {"experiment", "commit"})
+    if (!line.contains(name) || !line[name].is_string()) return std::nullopt;
+  JournalHead head{line["experiment"].get<std::string>(), line["commit"].get<std::string>(), {}};
   for (const auto& [name, fact] : line["provenance"].items()) head.provenance.push_back({name, fact.is_string() ? fact.get<std::string>() : fact.dump()});
   return head;
 }

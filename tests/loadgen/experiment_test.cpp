@@ -61,6 +61,7 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "warm_up_s = 'long'"), AllOf(StartsWith("dir/x.toml:3: warm_up_s"), HasSubstr("0 to 600")));
   EXPECT_THAT(complaint_about(minimal + "view_fraction = 1.5"), HasSubstr("above 0 and at most 1"));
   EXPECT_THAT(complaint_about(minimal + "cell_size = -2"), StartsWith("dir/x.toml:3: cell_size"));
+  EXPECT_THAT(complaint_about(minimal + "cell_size = 1e-308"), StartsWith("dir/x.toml:3: cell_size"));
   EXPECT_THAT(complaint_about(minimal + "population = 'growing'"), HasSubstr("fixed, per_client"));
   EXPECT_THAT(complaint_about(minimal + "keys = true"), HasSubstr("replay, live"));
   EXPECT_THAT(complaint_about(minimal + "viewfraction = 0.1"), AllOf(StartsWith("dir/x.toml:3: unknown key viewfraction"), HasSubstr("view_fraction")));

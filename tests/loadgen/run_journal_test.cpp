@@ -93,6 +93,7 @@ TEST_F(JournalFile, AJournalWithoutAHeadIsReadAndAnEmptyOneHasNoRuns) {
 TEST_F(JournalFile, AWholeLineThatIsNoRunIsNamed) {
   EXPECT_THAT(complaint_about(line_ + "{\"mode\": \n"), HasSubstr("runs.jsonl:2: not JSON"));
   EXPECT_THAT(complaint_about("7\n"), HasSubstr("runs.jsonl:1: mode is missing"));
+  EXPECT_THAT(complaint_about("{\"provenance\": {}, \"experiment\": 5, \"commit\": \"x\"}\n"), HasSubstr("runs.jsonl:1: mode is missing"));
   nlohmann::json line = nlohmann::json::parse(line_);
   line["update_age_ms"]["p99"] = "soon";
   EXPECT_THAT(complaint_about(line_ + line.dump() + "\n"), HasSubstr(":2: update_age_ms.p99 is missing or not a number"));
