@@ -77,13 +77,19 @@ class Placement {
     return body.half_extent == Vector2::Zero() ? world_.is_free(body.position, body.radius) : world_.is_free(body.position, body.half_extent);
   }
 
+  bool is_inside(const Outline& body) const {
+    const Vector2 reach = body.half_extent + Vector2::Constant(body.radius);
+    return (body.position - reach).minCoeff() >= 0.0 && body.position.x() + reach.x() <= field_.length && body.position.y() + reach.y() <= field_.width;
+  }
+
   void check(const Outline& body, std::vector<Outline>& before) const {
-    if (!is_free(body)) refuse(body, before);
+    const bool is_allowed = scene_.world.allow_overlap ? is_inside(body) : is_free(body);
+    if (!is_allowed) refuse(body, before);
     before.push_back(body);
   }
 
   [[noreturn]] void refuse(const Outline& body, const std::vector<Outline>& before) const {
-    for (const Outline& other : before)
+    for (const Outline& other : scene_.world.allow_overlap ? std::vector<Outline>() : before)
       if (body.gap(other) < 0.0 || (body.gap(other) <= 0.0 && body.radius == 0.0 && other.radius == 0.0))
         throw PlacementError(body.name, body.name + " at " + place_text(body.position) + " overlaps " + other.name + " at " + place_text(other.position));
     std::ostringstream text;

@@ -26,6 +26,7 @@ class SceneReader {
   Scene read() {
     root_.text("name", scene_.name);
     root_.whole("seed", scene_.seed, 0, std::numeric_limits<std::int64_t>::max());
+    root_.truth("allow_overlap", scene_.world.allow_overlap);
     read_materials();
     read_field();
     read_drag();
@@ -279,13 +280,15 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
   return scene;
 }
 
-Scene load_scene(const std::string& scene) {
+std::string scene_text(const std::string& scene) {
   const std::filesystem::path file = file_of(scene);
   std::ifstream stream(file);
   std::ostringstream text;
   if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) throw SceneError(file.string() + ": cannot be read: expected a scene file (TOML)");
-  return parse_scene(text.str(), file);
+  return text.str();
 }
+
+Scene load_scene(const std::string& scene) { return parse_scene(scene_text(scene), file_of(scene)); }
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;

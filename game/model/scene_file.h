@@ -14,6 +14,9 @@ namespace rink::game {
 /// the running executable. Throws SceneError naming file, line, key, value and what was expected.
 Scene load_scene(const std::string& scene);
 
+/// What stands in the file that load_scene() reads. Throws SceneError if it cannot be read.
+std::string scene_text(const std::string& scene);
+
 /// The scene that `text` describes; `file` is named in errors and, without its extension, names a scene that does not name itself.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file);
 

@@ -77,6 +77,9 @@ struct Field {
   bool bats_keep_to_half = false;  ///< bats of Half::left and Half::right bounce off the halfway line x = length/2
 };
 
+/// How pending events are kept: a calendar of buckets, constant time (event_queue.h), or a binary heap (event_heap.h).
+enum class QueuePolicy : std::uint8_t { calendar, heap };
+
 /// Everything that is true of a World before it has bodies.
 struct WorldSpec {
   Field field;
@@ -87,6 +90,8 @@ struct WorldSpec {
   std::optional<SurfaceFriction> surface_friction;  ///< absent: surfaces are smooth and nothing spins; tables are as large as `restitution`
   bool accounts_energy = false;                     ///< keep the books behind World::dissipated(); never changes the motion
   double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world choose. Changes cost, never results.
+  QueuePolicy queue = QueuePolicy::calendar;  ///< likewise
+  bool allow_overlap = false;                 ///< bodies may be added where others are; those that overlap and approach collide at once, none is ever moved
 };
 
 struct PuckSpec {

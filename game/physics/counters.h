@@ -34,6 +34,8 @@ struct Counters {
   std::uint64_t evaluations = 0;      ///< trajectories evaluated for an event
   std::uint64_t bodies_touched = 0;   ///< last-event states rewritten
 
+  friend bool operator==(const Counters&, const Counters&) = default;
+
   /// Physical events: all that rewrote the state of a body.
   std::uint64_t events() const {
     return disc_impacts + post_impacts + wall_impacts + bat_impacts + bat_bat_impacts + goals + thrust_changes + releases + hops + freezes + stops;

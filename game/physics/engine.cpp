@@ -13,13 +13,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
 template <class Real>
-BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag) {
+BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag), queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
   assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
   assert(spec.puck_friction >= 0.0 && (!is_rough() || (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
                                                        spec.surface_friction->tangential_restitution.material_count() == spec.restitution.material_count())));
   tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
-  has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() && !spec.accounts_energy;
+  has_free_impacts_ = spec.puck_drag == 0.0 && !is_slowed() && !is_rough() && !spec.accounts_energy && !spec.allow_overlap;
   grid_.rebuild(spec.field.length, spec.field.width, 0.0, 1, spec.cell_size);
 }
 
@@ -41,12 +41,12 @@ template <class Real>
 BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half,
                               Real spin) {
   assert(position.allFinite() && velocity.allFinite() && mass > 0.0 && material < spec_.restitution.material_count());
-  assert(is_free(position, {half_extent, radius}));
+  assert(spec_.allow_overlap || is_free(position, {half_extent, radius}));
   const auto body = static_cast<std::uint32_t>(bodies_.size());
   const Real inverse_mass = kind == BodyKind::post ? 0.0 : 1.0 / mass;
   bodies_.push_back({{position.x(), position.y(), velocity.x(), velocity.y(), now_, radius}, inverse_mass, 0, kind, material, 0, no_mouth});
   builds_.push_back({mass, inverse_mass, half_extent, Vector2(0.0, 0.0), half});
-  slots_.push_back({infinity, infinity, partner::none, 0, CellGrid::left});
+  slots_.push_back(no_event);
   laws_.push_back({Vector2(0.0, 0.0), Vector2::Constant(own_drag(body))});
   rhythms_.emplace_back();
   jams_.push_back(0);
@@ -78,6 +78,7 @@ void BasicEngine<Real>::rebuild_grid() {
     grid_.insert(body, static_cast<double>(position.x()), static_cast<double>(position.y()));
     require_prediction(body);
   }
+  is_everything_pending_ = true;
 }
 
 template <class Real>
@@ -94,6 +95,31 @@ void BasicEngine<Real>::require_prediction(std::uint32_t body) {
   if ((bodies_[body].flags & pending) != 0) return;
   bodies_[body].flags |= pending;
   pending_.push_back(body);
+}
+
+/// Where everything is predicted anew, whoever moves finds those who rest; these need not look for themselves.
+template <class Real>
+void BasicEngine<Real>::predict_pending() {
+  if (2 * pending_.size() > bodies_.size()) rebuild_grid();
+  for (const std::uint32_t body : pending_) {
+    bodies_[body].flags = static_cast<std::uint8_t>(bodies_[body].flags & ~pending);
+    if (is_gone(body)) continue;
+    if (!is_everything_pending_ || !is_left_alone(body)) {
+      predict(body);
+    } else {
+      slots_[body] = no_event;
+      queue_.set(body, infinity, body, body);
+    }
+  }
+  pending_.clear();
+  is_everything_pending_ = false;
+}
+
+/// At rest by itself: it has no event before somebody else's.
+template <class Real>
+bool BasicEngine<Real>::is_left_alone(std::uint32_t body) const {
+  const Body& b = bodies_[body];
+  return b.vx == 0.0 && b.vy == 0.0 && (b.flags & held) == 0 && laws_[body].acceleration == Vector2(0.0, 0.0);
 }
 
 template <class Real>
@@ -149,12 +175,7 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
 template <class Real>
 std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   assert(until >= now_ && until < infinity);
-  if (2 * pending_.size() > bodies_.size()) rebuild_grid();
-  for (const std::uint32_t body : pending_) {
-    bodies_[body].flags = static_cast<std::uint8_t>(bodies_[body].flags & ~pending);
-    if (!is_gone(body)) predict(body);
-  }
-  pending_.clear();
+  predict_pending();
   for (std::uint32_t body = queue_.first(until); body != EventQueue::none; body = queue_.first(until)) {
     process(body, queue_.time(body));
     if (goal_) return std::exchange(goal_, std::nullopt);
@@ -191,7 +212,7 @@ void BasicEngine<Real>::settle() {
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);
-    if (!is_gone(touched_[i])) predict(touched_[i]);
+    if (!is_gone(touched_[i]) && (b.flags & pending) == 0) predict(touched_[i]);
   }
   touched_.clear();
 }

@@ -1,11 +1,13 @@
 // The event loop behind World: bodies at their own last events, one earliest event per body, rest contacts and pressed clusters.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "game/physics/cell_grid.h"
-#include "game/physics/event_queue.h"
+#include "game/physics/event_schedule.h"
 #include "game/physics/impact_time.h"
 #include "game/physics/large_pages.h"
 #include "game/physics/straight_flight.h"
@@ -45,7 +47,7 @@ class BasicEngine {
   using RoundedBox = BasicRoundedBox<Real>;
   using HalfPlane = BasicHalfPlane<Real>;
   using RelativeMotion = BasicRelativeMotion<Real>;
-  using EventQueue = BasicEventQueue<Real>;
+  using EventQueue = BasicEventSchedule<Real>;
   using Goal = BasicGoal<Real>;
   using Event = BasicEvent<Real>;
 
@@ -67,6 +69,8 @@ class BasicEngine {
   Real work_of_thrust() const;
   Real dissipated() const;
   std::uint64_t hash() const;
+  std::vector<std::uint8_t> save() const;
+  static std::unique_ptr<BasicEngine> restore(std::span<const std::uint8_t> bytes);
 
  private:
   friend class BasicWorld<Real>;
@@ -98,6 +102,8 @@ class BasicEngine {
   struct Rhythm {
     Real window_start = -1.0, last_hop = -1.0;
     std::uint32_t impacts = 0, hops = 0;
+    Real instant = -1.0;  // of the last impact and how many it had then; where bodies may start in overlap
+    std::uint32_t repeats = 0;
   };
   struct Slot {
     Real impact_time, crossing_time;
@@ -105,6 +111,7 @@ class BasicEngine {
     std::uint32_t partner_version;
     CellGrid::Direction direction;  // of the crossing
   };
+  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left};
   /// Rest contact along `axis`: `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
   struct Hold {
     Partner low, high;
@@ -139,6 +146,8 @@ class BasicEngine {
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
   void require_prediction(std::uint32_t body);
+  void predict_pending();
+  bool is_left_alone(std::uint32_t body) const;
   void cross_cell(std::uint32_t body);
   void process(std::uint32_t body, Real time);
   void settle();
@@ -230,6 +239,17 @@ class BasicEngine {
   void enter_expense(std::uint32_t body, Real time);
   void enter_impacts();
 
+  // engine_overlap.cpp
+  bool is_stuck(const Contact& contact, Real time);
+  void stop_around(const Contact& contact, Real time);
+  void stop_cluster();
+
+  // engine_snapshot.cpp
+  template <class Stream>
+  bool exchange_state(Stream& stream);
+  bool is_sound() const;
+  void rebuild_from_state();
+
   WorldSpec spec_;
   Real now_ = 0.0;
   Real tolerance_;  // rounding error of an offset [m]
@@ -251,6 +271,7 @@ class BasicEngine {
   bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
   std::uint32_t curved_count_ = 0;         // bodies not in straight flight
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
+  bool is_everything_pending_ = false;
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> cluster_;
   std::vector<ClusterContact> cluster_contacts_;

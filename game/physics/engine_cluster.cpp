@@ -148,15 +148,7 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
   solve_cluster(0.0);
   for (const Vector2& acceleration : cluster_velocities_)
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
-  ++jam_count_;
-  for (const std::uint32_t body : cluster_) {
-    Body& b = bodies_[body];
-    b.vx = b.vy = 0.0;
-    b.flags |= frozen;
-    jams_[body] = jam_count_;
-    frozen_.push_back(body);
-    for (int axis = 0; axis < 2; ++axis) set_law(body, axis, 0.0, own_drag(body));
-  }
+  stop_cluster();
   return true;
 }
 

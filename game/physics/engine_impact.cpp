@@ -89,6 +89,7 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   rebase_companions(body, time);
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
+  if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
   const Vector2& normal = c.gap.normal;
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
   if (approach < rest_speed || given_back < 1.0) {

@@ -15,6 +15,11 @@ class BasicSum {
     sum_ = sum;
   }
   Real value() const { return sum_ + lost_; }
+  /// Saves or restores it (snapshot_stream.h).
+  template <class Stream>
+  bool exchange(Stream& stream) {
+    return stream.numbers(sum_, lost_);
+  }
 
  private:
   Real sum_ = 0.0, lost_ = 0.0;

@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "game/physics/engine.h"
 
@@ -103,6 +104,17 @@ template <class Real>
 bool BasicWorld<Real>::is_free(const Vector2& centre, double radius) const { return engine_->is_free(centre.cast<Real>(), {BasicVector2<Real>(0.0, 0.0), radius}); }
 template <class Real>
 bool BasicWorld<Real>::is_free(const Vector2& centre, const Vector2& half_extent) const { return engine_->is_free(centre.cast<Real>(), {half_extent.cast<Real>(), 0.0}); }
+
+template <class Real>
+BasicWorld<Real>::BasicWorld(std::unique_ptr<BasicEngine<Real>> engine) : engine_(std::move(engine)) {}
+template <class Real>
+std::vector<std::uint8_t> BasicWorld<Real>::save() const { return engine_->save(); }
+template <class Real>
+std::optional<BasicWorld<Real>> BasicWorld<Real>::restore(std::span<const std::uint8_t> bytes) {
+  auto engine = BasicEngine<Real>::restore(bytes);
+  if (!engine) return std::nullopt;
+  return BasicWorld(std::move(engine));
+}
 
 template <class Real>
 const WorldSpec& BasicWorld<Real>::spec() const { return engine_->spec_; }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "game/physics/body.h"
 #include "game/physics/counters.h"
@@ -85,6 +86,11 @@ class BasicWorld {
   bool is_free(const Vector2& centre, double radius) const;
   bool is_free(const Vector2& centre, const Vector2& half_extent) const;
 
+  /// The state as bytes: the same on every machine for the same bits. Recorded events are an observer's and not among it.
+  std::vector<std::uint8_t> save() const;
+  /// A world that goes on from there with the same bits; nothing if the bytes are no intact snapshot of this version and scalar.
+  static std::optional<BasicWorld> restore(std::span<const std::uint8_t> bytes);
+
   const WorldSpec& spec() const;
   const Counters& counters() const;
   Real kinetic_energy() const;           ///< of the bodies in play at now(), spin included [J]
@@ -101,6 +107,7 @@ class BasicWorld {
   std::uint64_t hash() const;
 
  private:
+  explicit BasicWorld(std::unique_ptr<BasicEngine<Real>> engine);
   std::unique_ptr<BasicEngine<Real>> engine_;
 };
 using World = BasicWorld<double>;

@@ -234,6 +234,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[[key]]\ntime = 1.0\nbat = \"ghost\"\nkey = \"up\"\nis_down = true\n", "bad.toml:6", "key.bat is 'ghost'", "the name of a bat"},
         BadValue{"[[key]]\ntime = -1.0\nbat = \"ghost\"\n", "bad.toml:5", "key.time is -1", "from 0 up"}));
 
+TEST(SceneFile, MayAllowOverlapAtTheStartButNotBodiesOutsideTheField) {
+  const std::string field = "allow_overlap = true\n[field]\nlength = 4.0\nwidth = 2.0\n[[puck]]\nposition = [1.0, 1.0]\nvelocity = [1.0, 0.0]\n[[puck]]\n";
+  Game game(parse_scene(field + "position = [1.05, 1.0]\n", "overlap.toml"));
+  game.advance(0.0);
+  EXPECT_EQ(game.world().counters().disc_impacts, 1u);
+  EXPECT_NEAR(game.world().max_overlap(), 0.03, 1e-15);
+  try {
+    parse_scene(field + "position = [3.99, 1.0]\n", "overlap.toml");
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("overlap.toml:8"), HasSubstr("not wholly within the field")));
+  }
+}
+
 TEST(SceneFile, NamesThePathThatCannotBeRead) {
   try {
     load_scene("no/such/scene.toml");

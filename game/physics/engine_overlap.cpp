@@ -1,0 +1,50 @@
+// Bodies that started in overlap and are pushed to and fro at one instant: time must advance all the same.
+#include <limits>
+
+#include "game/physics/engine.h"
+
+namespace rink::physics {
+
+namespace {
+/// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body that lies in two fixed ones at once never would.
+constexpr std::uint32_t repeats_max = 100;
+}  // namespace
+
+/// Counts the impact at `time`; whether one of the two has had its fill.
+template <class Real>
+bool BasicEngine<Real>::is_stuck(const Contact& c, Real time) {
+  const auto has_had_enough = [&](std::uint32_t body) {
+    Rhythm& rhythm = rhythms_[body];
+    rhythm.repeats = rhythm.instant == time ? rhythm.repeats + 1 : 1;
+    rhythm.instant = time;
+    return rhythm.repeats > repeats_max;
+  };
+  const bool is_own = has_had_enough(c.body), is_other = !is_fixed(c.partner) && has_had_enough(c.partner);
+  return is_own || is_other;
+}
+
+/// Stops all that hangs together with the contact, for as long as nothing else acts on it.
+template <class Real>
+void BasicEngine<Real>::stop_around(const Contact& c, Real time) {
+  gather(c, std::numeric_limits<Real>::infinity(), time);
+  note(EventKind::freeze, time, c.body, c.partner);
+  stop_cluster();
+}
+
+template <class Real>
+void BasicEngine<Real>::stop_cluster() {
+  ++jam_count_;
+  for (const std::uint32_t body : cluster_) {
+    Body& b = bodies_[body];
+    b.vx = b.vy = 0.0;
+    b.flags |= frozen;
+    jams_[body] = jam_count_;
+    frozen_.push_back(body);
+    for (int axis = 0; axis < 2; ++axis) set_law(body, axis, 0.0, own_drag(body));
+  }
+}
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
+
+}  // namespace rink::physics
