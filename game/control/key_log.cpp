@@ -1,6 +1,7 @@
 // Writes numbers as the shortest way back to their bits allows, and reads line by line so that an error can name its line.
 #include "game/control/key_log.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cinttypes>
@@ -32,6 +33,26 @@ std::optional<Number> number_of(const std::string& text, Base... base) {
   return number;
 }
 
+std::string hexadecimal(std::uint64_t number) {
+  std::array<char, 17> digits;
+  std::snprintf(digits.data(), digits.size(), "%016" PRIx64, number);
+  return digits.data();
+}
+
+/// FNV-1a (Fowler, Noll and Vo) over lines with their ends.
+class LineChecksum {
+ public:
+  void add(const std::string& line) {
+    for (const char byte : line) mix(byte);
+    mix('\n');
+  }
+  std::uint64_t value() const { return sum_; }
+
+ private:
+  void mix(char byte) { sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u; }
+  std::uint64_t sum_ = 0xcbf29ce484222325u;
+};
+
 class Reader {
  public:
   Reader(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
@@ -41,7 +62,9 @@ class Reader {
     while (next_line()) {
       const std::vector<std::string> words = words_of(line_);
       if (words.empty() || words.front().front() == '#') continue;
-      if (!log_.events.empty() || !read_header(words)) read_event(words);
+      if (log_.is_sealed) refuse(line_, "nothing after the line \"end\"");
+      if (words.front() == "end") read_end(words);
+      else if (!log_.events.empty() || !read_header(words)) read_event(words);
     }
     if (stream_.bad()) throw SceneError(name_ + ": cannot be read to its end");
     return std::move(log_);
@@ -50,7 +73,11 @@ class Reader {
  private:
   bool next_line() {
     ++line_number_;
-    if (std::getline(stream_, line_)) return true;
+    above_ = checksum_.value();
+    if (std::getline(stream_, line_)) {
+      checksum_.add(line_);
+      return true;
+    }
     line_.clear();
     return false;
   }
@@ -68,7 +95,11 @@ class Reader {
 
   bool read_header(const std::vector<std::string>& words) {
     const std::string& key = words[0];
-    if (key != "scene" && key != "seed" && key != "bats" && key != "fingerprint") return false;
+    if (key == "|") {
+      log_.scene_text += line_.substr(std::min(line_.size(), line_.find('|') + 2)) + '\n';
+      return true;
+    }
+    if (key != "scene" && key != "seed" && key != "bats" && key != "fingerprint" && key != "until" && key != "hash") return false;
     if (key == "scene") {
       const std::size_t start = line_.find_first_not_of(" \t", line_.find("scene") + 5);
       log_.scene = start == std::string::npos ? "" : line_.substr(start);
@@ -77,15 +108,31 @@ class Reader {
     if (words.size() != 2) refuse(line_, key + " and one number");
     if (key == "seed") log_.seed = require<std::uint64_t>(words[1], "a whole number");
     if (key == "bats") log_.bats = require<std::uint32_t>(words[1], "a whole number");
+    if (key == "hash") log_.hash = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
+    if (key == "until") log_.until = time_of(words[1]);
     if (key == "fingerprint") log_.fingerprint = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
     return true;
+  }
+
+  double time_of(const std::string& word) const {
+    const double time = require<double>(word, "scene, seed, bats, fingerprint, until, hash, end, or a time in seconds");
+    if (!std::isfinite(time) || time < 0.0) refuse(word, "a time of 0 s or more");
+    return time;
+  }
+
+  void read_end(const std::vector<std::string>& words) {
+    if (words.size() != 3) refuse(line_, "end, the number of events and a checksum");
+    if (require<std::uint64_t>(words[1], "the number of events") != log_.events.size())
+      refuse(line_, "end " + std::to_string(log_.events.size()) + ", for so many events stand above: lines are missing or were added");
+    if (require<std::uint64_t>(words[2], "a checksum of up to 16 hexadecimal digits", 16) != above_)
+      refuse(words[2], hexadecimal(above_) + ", the checksum of the lines above: one of them was altered");
+    log_.is_sealed = true;
   }
 
   void read_event(const std::vector<std::string>& words) {
     if (words.size() < 3) refuse(line_, "time, player, and down, up, enter or leave");
     InputEvent event;
-    event.time = require<double>(words[0], "scene, seed, bats, fingerprint, or a time in seconds");
-    if (!std::isfinite(event.time) || event.time < 0.0) refuse(words[0], "a time of 0 s or more");
+    event.time = time_of(words[0]);
     if (!log_.events.empty() && event.time < log_.events.back().time) refuse(words[0], "a time not before that of the line above");
     event.player = require<std::uint32_t>(words[1], "a player's number, counted from 0");
     event.kind = input_kind(words[2]);
@@ -108,33 +155,62 @@ class Reader {
   std::string name_;
   std::string line_;
   std::uint64_t line_number_ = 0;
+  LineChecksum checksum_;
+  std::uint64_t above_ = 0;  ///< the checksum of all lines above this one
   KeyLog log_;
 };
 
-void write_event(std::ostream& stream, const InputEvent& event) {
-  std::array<char, 40> time;
-  std::snprintf(time.data(), time.size(), "%.17g", event.time);
-  stream << time.data() << ' ' << event.player << ' ' << input_names[static_cast<std::size_t>(event.kind)];
-  if (has_key(event.kind)) stream << ' ' << key_name(event.key);
-  stream << '\n';
+std::string exact(double number) {
+  std::array<char, 40> text;
+  std::snprintf(text.data(), text.size(), "%.17g", number);
+  return text.data();
 }
+
+class Writer {
+ public:
+  explicit Writer(std::ostream& stream) : stream_(stream) {}
+
+  void write(const KeyLog& log) {
+    line(version_line);
+    line("scene " + log.scene);
+    line("seed " + std::to_string(log.seed));
+    if (log.bats) line("bats " + std::to_string(*log.bats));
+    if (log.fingerprint) line("fingerprint " + hexadecimal(*log.fingerprint));
+    if (log.until) line("until " + exact(*log.until));
+    if (log.hash) line("hash " + hexadecimal(*log.hash));
+    std::istringstream scene(log.scene_text);
+    for (std::string text; std::getline(scene, text);) line(text.empty() ? "|" : "| " + text);
+    for (const InputEvent& event : log.events) write(event);
+    stream_ << "end " << log.events.size() << ' ' << hexadecimal(checksum_.value()) << '\n';
+  }
+
+ private:
+  void write(const InputEvent& event) {
+    std::string text = exact(event.time) + ' ' + std::to_string(event.player) + ' ' + std::string(input_names[static_cast<std::size_t>(event.kind)]);
+    if (has_key(event.kind)) text += ' ' + std::string(key_name(event.key));
+    line(text);
+  }
+  void line(const std::string& text) {
+    stream_ << text << '\n';
+    checksum_.add(text);
+  }
+
+  std::ostream& stream_;
+  LineChecksum checksum_;
+};
 
 }  // namespace
 
 KeyLog key_log_for(const Scene& scene) {
-  return {.scene = scene.name, .seed = scene.seed, .bats = static_cast<std::uint32_t>(scene.bodies.bats.size()), .fingerprint = fingerprint(scene), .events = {}};
+  KeyLog log;
+  log.scene = scene.name;
+  log.seed = scene.seed;
+  log.bats = static_cast<std::uint32_t>(scene.bodies.bats.size());
+  log.fingerprint = fingerprint(scene);
+  return log;
 }
 
-void write_key_log(std::ostream& stream, const KeyLog& log) {
-  stream << version_line << '\n' << "scene " << log.scene << '\n' << "seed " << log.seed << '\n';
-  if (log.bats) stream << "bats " << *log.bats << '\n';
-  if (log.fingerprint) {
-    std::array<char, 17> digits;
-    std::snprintf(digits.data(), digits.size(), "%016" PRIx64, *log.fingerprint);
-    stream << "fingerprint " << digits.data() << '\n';
-  }
-  for (const InputEvent& event : log.events) write_event(stream, event);
-}
+void write_key_log(std::ostream& stream, const KeyLog& log) { Writer(stream).write(log); }
 
 void write_key_log(const std::filesystem::path& file, const KeyLog& log) {
   std::ofstream stream(file);

@@ -12,13 +12,18 @@
 
 namespace rink::game {
 
-/// Which game was played and what was done in it. Text: a line `rink-keys 1`, one line each for scene, seed and (if known) bats and fingerprint, then one line
-/// per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for down and up, the key.
+/// Which game was played and what was done in it. Text: a line `rink-keys 1`, one line each for scene, seed and (if known) bats, fingerprint, until and hash, the
+/// scene's own text behind bars, then one line per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for
+/// down and up, the key. The last line, `end`, has the number of events and a checksum of all lines above.
 struct KeyLog {
   std::string scene;                         ///< as given to load_scene
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> bats;         ///< of the scaled scene
   std::optional<std::uint64_t> fingerprint;  ///< of the scene
+  std::optional<double> until;               ///< how far it was played [s]
+  std::optional<std::uint64_t> hash;         ///< of the game at `until`, on the exact engine
+  std::string scene_text;                    ///< the scene's file, so that the log needs no other; may be empty
+  bool is_sealed = false;                    ///< has its last line, so nothing is missing
   std::vector<InputEvent> events;            ///< ordered by time; events of one instant in the order in which they are to be submitted
   friend bool operator==(const KeyLog&, const KeyLog&) = default;
 };
@@ -26,6 +31,7 @@ struct KeyLog {
 /// The log's header for `scene`; its events are still to come.
 KeyLog key_log_for(const Scene& scene);
 
+/// Seals the log, whatever `is_sealed` says.
 void write_key_log(std::ostream& stream, const KeyLog& log);
 /// Throws SceneError if the file cannot be written.
 void write_key_log(const std::filesystem::path& file, const KeyLog& log);

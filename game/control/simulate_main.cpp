@@ -40,11 +40,12 @@ game::Scene scene_of(const Options& options) {
   return scene;
 }
 
-void submit_keys(game::Game& game, const game::Scene& scene, const std::string& file) {
-  if (file.empty()) return;
+std::vector<game::InputEvent> submit_keys(game::Game& game, const game::Scene& scene, const std::string& file) {
+  if (file.empty()) return {};
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file));
   game::require_fit(log, scene, file);
   for (const game::InputEvent& event : log.events) game.submit(event);
+  return log.events;
 }
 
 /// Opened before the simulation, so that a long run does not end in a path that cannot be written.
@@ -99,21 +100,31 @@ void write_results(const Options& options, const game::Game& game, double wall_s
   close(outputs.summary, options.summary);
 }
 
+/// All that it takes to play the game again on the exact engine, and, if that played it, the hash to compare.
+void write_record(const Options& options, const game::Scene& scene, const game::Game& game, std::vector<game::InputEvent> events, std::ofstream& record) {
+  if (options.record.empty()) return;
+  game::KeyLog log = game::key_log_for(scene);
+  log.scene_text = game::scene_text(options.scene);
+  log.until = game.now();
+  if (options.engine.engine == "exact") log.hash = game.hash();
+  std::erase_if(events, [&](const game::InputEvent& event) { return event.time > game.now(); });
+  log.events = std::move(events);
+  game::write_key_log(record, log);
+  close(record, options.record);
+}
+
 void simulate(const Options& options) {
   const game::Scene scene = scene_of(options);
   Outputs outputs(options);
   if (options.players.empty()) {
     game::Game game(scene, options.engine);
-    submit_keys(game, scene, options.keys);
-    return write_results(options, game, play(game, game, options, outputs.events), outputs);
+    const std::vector<game::InputEvent> keys = submit_keys(game, scene, options.keys);
+    write_results(options, game, play(game, game, options, outputs.events), outputs);
+    return write_record(options, scene, game, keys, outputs.record);
   }
   game::Playing playing(scene, options.players, scene.seed, options.until, options.engine);
   write_results(options, playing.game(), play(playing, playing.game(), options, outputs.events), outputs);
-  if (options.record.empty()) return;
-  game::KeyLog log = game::key_log_for(scene);
-  log.events = playing.keys();
-  game::write_key_log(outputs.record, log);
-  close(outputs.record, options.record);
+  write_record(options, scene, playing.game(), playing.keys(), outputs.record);
 }
 
 /// What is wrong with the engine that was asked for, if anything.
@@ -148,11 +159,11 @@ int main(int argc, char** argv) {
     return {};
   });
   CLI::Option* keys = app.add_option("--keys", options.keys, "a recorded key log to play (default: the scene's scripted keys only)");
-  CLI::Option* players = app.add_option("--players", options.players, "who plays the bats, in turn, separated by commas: " + allowed_players() + "; seeded like the scene (default: nobody)")
+  app.add_option("--players", options.players, "who plays the bats, in turn, separated by commas: " + allowed_players() + "; seeded like the scene (default: nobody)")
                              ->delimiter(',')
                              ->excludes(keys)
                              ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : name + ": expected one of " + allowed_players(); });
-  app.add_option("--record", options.record, "write what the players pressed to this key log, which --keys and rink serve --keys play again")->needs(players);
+  app.add_option("--record", options.record, "write the game to this key log: scene, keys and final hash; rink replay plays it again, and so do --keys and rink serve --keys");
   app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)");
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density (default: as it is)");
   app.add_option("--engine", options.engine.engine, "what moves the bodies: " + listed(physics::engine_names()) + " (docs/physics.md, docs/paper-engine.md)")->capture_default_str();

@@ -33,7 +33,7 @@ TEST(KeyLog, ReadsBackBitForBit) {
   constexpr std::uint64_t seed = 20;
   SCOPED_TRACE(seed);
   RandomStream random(seed);
-  KeyLog log{.scene = "a crowd with spaces", .seed = ~0ull, .bats = 7, .fingerprint = 0x00ff00ff00ff00ffu, .events = {}};
+  KeyLog log{.scene = "a crowd with spaces", .seed = ~0ull, .bats = 7, .fingerprint = 0x00ff00ff00ff00ffu, .until = 0.1, .hash = 77, .scene_text = "a = 1\n\n  # b | c\n", .is_sealed = true, .events = {}};
   double time = 0.0;
   for (int i = 0; i < 2000; ++i) {
     time += random.uniform() * (i % 7 == 0 ? 1e-12 : 1.0);
@@ -68,6 +68,30 @@ TEST(KeyLog, SaysWhichLineIsWrongAndWhatWasExpected) {
   EXPECT_THAT(refusal("rink-keys 1\n1 0 leave now\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("nothing after leave")));
   EXPECT_THAT(refusal("rink-keys 1\n2 0 down up\n1 0 up up\n"), AllOf(HasSubstr("bad.log:3"), HasSubstr("not before")));
   EXPECT_THROW(read_key_log(std::filesystem::path("no/such.log")), SceneError);
+}
+
+TEST(KeyLog, ThatWasAlteredOrCutIsRefusedByLine) {
+  KeyLog log;
+  log.scene = "match";
+  log.until = 2.0;
+  log.hash = 5;
+  log.scene_text = "a = 1\n";
+  log.events = {{0.5, 0, InputKind::key_down, Key::up}, {0.75, 0, InputKind::key_up, Key::up}};
+  std::ostringstream stream;
+  write_key_log(stream, log);
+  const std::string text = stream.str();
+  EXPECT_TRUE(read_text(text).is_sealed);
+  const std::size_t key = text.find("0.75"), end = text.find("end 2"), scene = text.find("a = 1");
+  std::string altered = text;
+  altered[key + 2] = '8';
+  EXPECT_THAT(refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
+  altered = text;
+  altered[scene] = 'b';
+  EXPECT_THAT(refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
+  EXPECT_THAT(refusal(text.substr(0, key) + text.substr(end)), AllOf(HasSubstr("bad.log:8"), HasSubstr("missing")));
+  EXPECT_THAT(refusal(text.substr(0, key + 6)), AllOf(HasSubstr("bad.log:8")));
+  EXPECT_THAT(refusal(text + "3 0 down up\n"), AllOf(HasSubstr("bad.log:10"), HasSubstr("nothing after")));
+  EXPECT_FALSE(read_text(text.substr(0, end)).is_sealed);  // whole lines lack: for whoever needs the end to notice
 }
 
 TEST(KeyLog, FitsItsOwnSceneOnly) {

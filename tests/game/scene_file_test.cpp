@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "game/control/game.h"
 #include "rink_scenes.h"
 
 namespace rink::game {
