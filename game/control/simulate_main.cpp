@@ -37,6 +37,7 @@ game::Scene scene_of(const Options& options) {
   game::Scene scene = game::load_scene(options.scene);
   if (options.seed) scene = game::with_seed(std::move(scene), *options.seed);
   if (options.bats) scene = game::scaled_to_bats(std::move(scene), *options.bats);
+  scene.world.accounts_energy = true;
   return scene;
 }
 

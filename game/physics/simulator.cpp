@@ -42,7 +42,11 @@ class ExactSimulator final : public Simulator {
   bool is_free(const Vector2& centre, const Vector2& half_extent) const override { return world_.is_free(centre, half_extent); }
 
   Counters counters() const override { return world_.counters(); }
+  double spin(BodyId body) const override { return world_.spin(body); }
   double kinetic_energy() const override { return world_.kinetic_energy(); }
+  double energy_introduced() const override { return world_.energy_introduced(); }
+  double work_of_thrust() const override { return world_.work_of_thrust(); }
+  double dissipated() const override { return world_.dissipated(); }
   Vector2 momentum() const override { return world_.momentum(); }
   double max_overlap() const override { return world_.max_overlap(); }
   std::uint64_t hash() const override { return world_.hash(); }

@@ -46,7 +46,11 @@ class Simulator {
   virtual bool is_free(const Vector2& centre, const Vector2& half_extent) const = 0;
 
   virtual Counters counters() const = 0;
+  virtual double spin(BodyId) const { return 0.0; }
   virtual double kinetic_energy() const = 0;
+  virtual double energy_introduced() const { return 0.0; }
+  virtual double work_of_thrust() const { return 0.0; }
+  virtual double dissipated() const { return 0.0; }
   virtual Vector2 momentum() const = 0;
   virtual double max_overlap() const = 0;
   virtual std::uint64_t hash() const = 0;

@@ -64,7 +64,7 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   EXPECT_EQ(text_of(file("states.csv")), states.str());
   const std::string summary = text_of(file("summary.json"));
   EXPECT_THAT(summary, HasSubstr(hash.str()));
-  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
+  for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "work_of_thrust", "dissipated", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
                           "evaluations"})
     EXPECT_THAT(summary, HasSubstr('"' + std::string(key) + "\":"));
 }

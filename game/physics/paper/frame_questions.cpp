@@ -29,10 +29,30 @@ bool FrameSimulator::is_free(const Vector2& centre, const Vector2& half_extent, 
   });
 }
 
+/// Of its motion at `velocity` and of its spin [J]; a puck is a uniform disc.
+double FrameSimulator::energy_of(const Body& body, const Vector2& velocity) const {
+  if (body.inverse_mass == 0.0) return 0.0;
+  return body.mass * (0.5 * velocity.squaredNorm() + 0.25 * body.radius * body.radius * body.spin * body.spin);
+}
+
+/// Of its thrust along the way from its last state to where it is at `time` [J].
+double FrameSimulator::work_until(const Body& body, double time) const {
+  if (body.force.thrust == Vector2(0.0, 0.0)) return 0.0;
+  return body.mass * body.force.thrust.dot(phase_at(body, time).position - body.start.position);
+}
+
 double FrameSimulator::kinetic_energy() const {
   double sum = 0.0;
   for (const Body& body : bodies_)
-    if (body.is_in_play && body.inverse_mass > 0.0) sum += 0.5 * body.mass * phase_at(body, now_).velocity.squaredNorm();
+    if (body.is_in_play) sum += energy_of(body, phase_at(body, now_).velocity);
+  return sum;
+}
+
+double FrameSimulator::work_of_thrust() const {
+  if (!spec_.accounts_energy) return 0.0;
+  double sum = work_;
+  for (const Body& body : bodies_)
+    if (body.is_in_play) sum += work_until(body, now_);
   return sum;
 }
 
@@ -74,6 +94,7 @@ std::uint64_t FrameSimulator::hash() const {
   for (const Body& body : bodies_) {
     for (const double value : {body.start.position.x(), body.start.position.y(), body.start.velocity.x(), body.start.velocity.y(), body.start_time}) mix(value);
     mix(body.is_in_play ? 1.0 : 0.0);
+    if (spec_.surface_friction) mix(body.spin);
   }
   return hash;
 }

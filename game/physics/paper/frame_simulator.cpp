@@ -25,6 +25,8 @@ BodyId FrameSimulator::add(const PuckSpec& spec) {
   Body body;
   body.start = {spec.position, spec.velocity};
   body.force.drag = spec_.puck_drag;
+  body.force.friction = spec_.puck_friction;
+  body.spin = spec_.surface_friction ? spec.spin : 0.0;
   body.radius = spec.radius;
   body.mass = spec.mass;
   body.inverse_mass = 1.0 / spec.mass;
@@ -62,6 +64,7 @@ BodyId FrameSimulator::add(Body body) {
   assert(body.start.position.allFinite() && body.start.velocity.allFinite() && body.material < spec_.restitution.material_count());
   const auto index = static_cast<std::uint32_t>(bodies_.size());
   body.start_time = now_;
+  introduced_ += energy_of(body, body.start.velocity);
   bodies_.push_back(body);
   plan(bodies_.back());
   if (is_begun_) turned(index);
@@ -70,7 +73,10 @@ BodyId FrameSimulator::add(Body body) {
 
 void FrameSimulator::remove(BodyId id) {
   Body& body = bodies_[id.index];
-  if (body.is_in_play) rebase(body, now_);
+  if (body.is_in_play) {
+    rebase(body, now_);
+    introduced_ -= energy_of(body, body.start.velocity);
+  }
   ++body.version;
   body.is_in_play = false;
   body.is_removed = true;
@@ -97,6 +103,7 @@ void FrameSimulator::place(BodyId id, const Vector2& position, const Vector2& ve
   puck.is_stopped = false;
   puck.start = {position, velocity};
   puck.start_time = now_;
+  introduced_ += energy_of(puck, velocity);
   ++counters_.bodies_touched;
   plan(puck);
   if (is_begun_) turned(id.index);
@@ -154,8 +161,10 @@ void FrameSimulator::plan(Body& body) {
 void FrameSimulator::rebase(Body& body, double time) {
   if (body.start_time == time) return;
   if (can_move(body) && !body.is_stopped) {
+    work_ += work_until(body, time);
     body.start = phase_at(body, time);
     ++counters_.bodies_touched;
+    if (body.force.friction > 0.0 && body.start.velocity == Vector2(0.0, 0.0)) note(EventKind::stop, time, static_cast<std::uint32_t>(&body - bodies_.data()));
   }
   body.start_time = time;
 }
@@ -163,6 +172,7 @@ void FrameSimulator::rebase(Body& body, double time) {
 Goal FrameSimulator::score(std::uint32_t index) {
   Body& body = bodies_[index];
   note(EventKind::goal, body.start_time, index);
+  introduced_ -= energy_of(body, body.start.velocity);
   ++body.version;
   body.is_in_play = false;
   return {body.start_time, {index}, body.start.position.x() < 0.5 * spec_.field.length ? End::left : End::right};
@@ -182,8 +192,25 @@ void FrameSimulator::respond(std::uint32_t index, Partner partner, const Vector2
   double change = std::max(0.0, normal.dot(other.chord - body.chord)) + least;
   if (approach > 0.0) change = approach + std::max(spec_.restitution(body.material, other.material) * approach, least);
   const double impulse = change / (body.inverse_mass + other.inverse_mass);
+  if (spec_.surface_friction) return rub(body, other, normal, impulse);
   body.start.velocity += impulse * body.inverse_mass * normal;
   other.start.velocity -= impulse * other.inverse_mass * normal;
+}
+
+/// The law of the exact engine (docs/physics.md, "Spin"): a tangential impulse up to Coulomb's limit, which turns discs.
+void FrameSimulator::rub(Body& body, Body& other, const Vector2& normal, double normal_impulse) {
+  const Vector2 tangent(-normal.y(), normal.x());
+  const auto turns = [](const Body& one) { return one.kind == BodyKind::puck && one.inverse_mass > 0.0; };
+  const auto rim_speed = [&](const Body& one) { return turns(one) ? one.spin * one.radius : 0.0; };
+  const auto yielding = [&](const Body& one) { return (turns(one) ? 3.0 : 1.0) * one.inverse_mass; };
+  const double slip = tangent.dot(body.start.velocity - other.start.velocity) - (rim_speed(body) + rim_speed(other));
+  const double stick = (1.0 + spec_.surface_friction->tangential_restitution(body.material, other.material)) * std::abs(slip) / (yielding(body) + yielding(other));
+  const double rubbing = -std::copysign(std::min(stick, spec_.surface_friction->coefficient(body.material, other.material) * normal_impulse), slip);
+  const Vector2 impulse = normal_impulse * normal + rubbing * tangent;
+  body.start.velocity += body.inverse_mass * impulse;
+  other.start.velocity -= other.inverse_mass * impulse;
+  for (Body* one : {&body, &other})
+    if (turns(*one)) one->spin -= 2.0 * one->inverse_mass * rubbing / one->radius;
 }
 
 void FrameSimulator::note(EventKind kind, double time, std::uint32_t body, Partner other) {

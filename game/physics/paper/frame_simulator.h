@@ -40,7 +40,12 @@ class FrameSimulator : public Simulator {
   bool is_free(const Vector2& centre, const Vector2& half_extent) const override;
 
   Counters counters() const override { return counters_; }
+  double spin(BodyId body) const override { return bodies_[body.index].spin; }
   double kinetic_energy() const override;
+  double energy_introduced() const override { return spec_.accounts_energy ? introduced_ : 0.0; }
+  double work_of_thrust() const override;
+  /// The rest of the balance: what drag, friction and impacts took, and what the integrator lost or made up.
+  double dissipated() const override { return spec_.accounts_energy ? energy_introduced() + work_of_thrust() - kinetic_energy() : 0.0; }
   Vector2 momentum() const override;
   double max_overlap() const override;
   std::uint64_t hash() const override;
@@ -57,6 +62,7 @@ class FrameSimulator : public Simulator {
     Vector2 half_extent{0.0, 0.0};  ///< of a rectangle; 0 for discs
     double radius = 0.0;
     double mass = 1.0, inverse_mass = 1.0;
+    double spin = 0.0;          ///< of a puck [rad/s]
     std::uint32_t version = 0;  ///< of the path
     std::uint32_t impacts = 0;  ///< within this frame
     BodyKind kind = BodyKind::puck;
@@ -103,10 +109,14 @@ class FrameSimulator : public Simulator {
   BodyId add(Body body);
   void begin_frame();
   void finish_frame();
+  void rub(Body& body, Body& other, const Vector2& normal, double normal_impulse);
+  double energy_of(const Body& body, const Vector2& velocity) const;
+  double work_until(const Body& body, double time) const;
   void note(EventKind kind, double time, std::uint32_t body, Partner other = wall);
   void count_impact(std::uint32_t body, Partner partner, double time);
   bool is_free(const Vector2& centre, const Vector2& half_extent, double radius) const;
 
+  double introduced_ = 0.0, work_ = 0.0;  ///< J
   std::uint64_t frame_ = 0;
   bool is_begun_ = false;
   bool records_events_ = false;

@@ -43,9 +43,7 @@ Step rk4(const Vector2& v, const Force& force, double h) {
   return {h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4), v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)};
 }
 
-}  // namespace
-
-Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration) {
+Step unlimited_step(Integrator integrator, const Vector2& velocity, const Force& force, double duration) {
   switch (integrator) {
     case Integrator::euler: return euler(velocity, force, duration);
     case Integrator::semi_implicit: return semi_implicit(velocity, force, duration);
@@ -53,6 +51,16 @@ Step step(Integrator integrator, const Vector2& velocity, const Force& force, do
     case Integrator::rk4: break;
   }
   return rk4(velocity, force, duration);
+}
+
+}  // namespace
+
+Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration) {
+  Step taken = unlimited_step(integrator, velocity, force, duration);
+  if (force.friction == 0.0) return taken;
+  if (taken.velocity.dot(velocity) <= 0.0) taken.velocity = Vector2(0.0, 0.0);
+  if (taken.displacement.dot(velocity) <= 0.0) taken.displacement = Vector2(0.0, 0.0);
+  return taken;
 }
 
 }  // namespace rink::physics::paper

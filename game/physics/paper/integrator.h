@@ -17,12 +17,17 @@ enum class Integrator : std::uint8_t { euler, semi_implicit, verlet, rk4 };
 const std::vector<std::string>& integrator_names();
 std::optional<Integrator> integrator_named(const std::string& name);
 
-/// What accelerates a body: dv/dt = thrust - drag v.
+/// What accelerates a body: dv/dt = thrust - drag v - friction v/|v|.
 struct Force {
   Vector2 thrust{0.0, 0.0};  ///< m/s^2
   double drag = 0.0;         ///< 1/s
+  double friction = 0.0;     ///< Coulomb's, with the table [m/s^2]; only where there is no thrust
 
-  Vector2 acceleration(const Vector2& velocity) const { return thrust - drag * velocity; }
+  Vector2 acceleration(const Vector2& velocity) const {
+    const Vector2 smooth = thrust - drag * velocity;
+    if (friction == 0.0 || velocity == Vector2(0.0, 0.0)) return smooth;
+    return smooth - friction * velocity.normalized();
+  }
 };
 
 struct Phase {
@@ -35,7 +40,7 @@ struct Step {
   Vector2 velocity{0.0, 0.0};      ///< at the end [m/s]
 };
 
-/// One step of `duration` [s], 0 or more, from `velocity`.
+/// One step of `duration` [s], 0 or more, from `velocity`. Friction stops a body, it never turns it round.
 Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration);
 
 }  // namespace rink::physics::paper
