@@ -1,0 +1,72 @@
+// How two players get from one match to the next: countdown, pause, who is away, win, rematch. Runs on real time; the game itself stands still unless `runs()`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "game/control/game.h"
+
+namespace rink::game {
+
+/// Where a match stands. Simulated time runs in `playing` only.
+enum class MatchPhase : std::uint8_t {
+  waiting,    ///< for the other player
+  countdown,  ///< to the face-off that opens it, or to go on after a pause
+  playing,
+  paused,
+  away,  ///< a player has left and has some time to come back
+  over,
+  lost  ///< the connection, or whatever else ended it: no flow gets there by itself
+};
+inline constexpr std::uint8_t match_phase_max = static_cast<std::uint8_t>(MatchPhase::lost);
+
+/// What all who play or watch know of a match, besides the game.
+struct MatchState {
+  std::uint32_t number = 0;             ///< of the match, from 1; 0 before the first
+  MatchPhase phase = MatchPhase::waiting;
+  double until_s = 0.0;                 ///< when countdown or patience with who is away end [s, real time]
+  std::array<bool, 2> wants_rematch{};  ///< by player
+  std::optional<Team> winner;           ///< once it is over
+  friend bool operator==(const MatchState&, const MatchState&) = default;
+};
+
+/// How long things take [s].
+struct FlowTimes {
+  double countdown_s = 3.0;
+  double patience_s = 30.0;  ///< with a player who is away
+};
+
+/// The rules around a match of two. Pure: every call is told the real time [s], which never falls. Player 0 is on the left.
+class MatchFlow {
+ public:
+  explicit MatchFlow(const FlowTimes& times = {}) : times_(times) {}
+
+  /// Lets time pass: countdowns end, patience runs out.
+  void advance(double now_s);
+  /// `player` takes the seat; one who was away may go on where the match stopped.
+  void enter(std::uint32_t player, double now_s);
+  void leave(std::uint32_t player, double now_s);
+  /// Any player may stop a match that is played, and any may have it go on, after a countdown.
+  void pause(bool is_wanted, double now_s);
+  /// Counts once the match is over. When both have asked the next one begins.
+  void ask_rematch(std::uint32_t player, double now_s);
+  /// The game has come to `winner`'s last goal.
+  void win(Team winner);
+
+  const MatchState& state() const { return state_; }
+  /// Whether simulated time runs.
+  bool runs() const { return state_.phase == MatchPhase::playing; }
+  bool is_here(std::uint32_t player) const { return is_here_[player]; }
+
+ private:
+  bool are_all_here() const { return is_here_[0] && is_here_[1]; }
+  void begin_match(double now_s);
+  void count_down(double now_s);
+
+  FlowTimes times_;
+  MatchState state_;
+  std::array<bool, 2> is_here_{};
+};
+
+}  // namespace rink::game

@@ -1,0 +1,82 @@
+// What a match looks like at one instant and what its players may do: the same for a match played here, one played over a network, and one that was recorded.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/control/match_flow.h"
+#include "game/model/key.h"
+
+namespace rink::game {
+
+/// A body where it is to be drawn.
+struct Thing {
+  std::uint32_t id = 0;
+  physics::BodyKind kind = physics::BodyKind::puck;
+  Team team = Team::none;
+  Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
+  Vector2 half_extent{0.0, 0.0};                   ///< m; both the radius for discs
+};
+
+/// What is to be heard.
+struct Noise {
+  enum class Kind : std::uint8_t { puck_on_wall, puck_on_bat, puck_on_post, puck_on_puck, count, face_off, goal, win };
+  Kind kind = Kind::puck_on_wall;
+  double strength = 1.0;  ///< 0 to 1
+  double place = 0.5;     ///< along the field, 0 to 1
+};
+
+/// How the connection does; shown on request.
+struct LinkFigures {
+  double ping_ms = 0.0, jitter_ms = 0.0, loss = 0.0;  ///< `loss` is a fraction: of questions that had no answer within a second
+  std::uint64_t tick = 0;                             ///< ticks heard of
+  double payload_bytes_per_s = 0.0;                   ///< received, over the last second
+  double lead_ms = 0.0;             ///< how far the own bat is shown ahead of the other (docs/play.md)
+  std::uint64_t corrections = 0;    ///< of the own bat, that could be seen
+  double last_correction_mm = 0.0;
+};
+
+/// All that there is to see and hear after one call of advance().
+struct MatchSight {
+  double time = 0.0;  ///< simulated [s]
+  physics::Field field;
+  std::vector<Thing> things;
+  Score score;
+  std::optional<std::uint32_t> goals_to_win;
+  std::string left_name = "left", right_name = "right";
+  MatchPhase phase = MatchPhase::waiting;
+  double remaining_s = 0.0;                ///< of countdown and away
+  std::optional<Team> scorer;              ///< of the goal whose face-off is still to come
+  double since_goal_s = 0.0;               ///< real seconds since then
+  std::optional<Team> winner;
+  std::optional<Team> own_team;            ///< of a player who has a window of his own: from that end it is seen
+  bool wants_rematch = false, other_wants_rematch = false;
+  std::string notice;                      ///< one line for the player, or nothing
+  std::vector<Noise> noises;               ///< since the last advance
+  std::optional<LinkFigures> link;         ///< of a match over a network
+};
+
+/// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never falls.
+class MatchSource {
+ public:
+  virtual ~MatchSource() = default;
+
+  /// Plays on to real time `now_s`; afterwards sight() is of that instant.
+  virtual void advance(double now_s) = 0;
+  virtual const MatchSight& sight() const = 0;
+
+  /// Persons who play at this keyboard: 0 (who watches), 1 or 2. Person k's keys are given to press() as hand k.
+  virtual std::uint32_t hand_count() const = 0;
+  /// Directions are those of the field: `right` is towards larger x. Takes effect at the instant of the next advance().
+  virtual void press(std::uint32_t hand, Key key, bool is_down) = 0;
+
+  /// Stops or resumes the match, if this player may.
+  virtual void pause(bool is_wanted) = 0;
+  /// Asks for another match once this one is over; it starts when everybody has asked.
+  virtual void rematch() = 0;
+};
+
+}  // namespace rink::game
