@@ -53,7 +53,7 @@ std::string name_of(const MatchSight& sight, game::Team team) { return team == g
 
 void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
   const double whole = std::ceil(sight.remaining_s), part = whole - sight.remaining_s;  // part of the second that is over
-  Colour colour = white;
+  Colour colour{1.0f, 0.76f, 0.18f, 1.0f};
   colour.alpha = static_cast<float>(1.0 - 0.85 * part * part);
   char words[8];
   std::snprintf(words, sizeof words, "%d", static_cast<int>(whole));
@@ -130,8 +130,8 @@ Camera camera_of(const physics::Field& field, const ViewChoice& choice, double a
     return camera;
   }
   const float way = choice.viewpoint == Viewpoint::left_end ? 1.0f : -1.0f, own = choice.viewpoint == Viewpoint::left_end ? 0.0f : length;
-  camera.target = {own + way * 0.455f * length, 0.5f * width, 0.0f};
-  camera.eye = camera.target + Vector3(-way * 0.86f * length, 0.0f, 0.69f * length) * away;
+  camera.target = {own + way * 0.445f * length, 0.5f * width, 0.0f};
+  camera.eye = camera.target + Vector3(-way * 0.90f * length, 0.0f, 0.74f * length) * away;
   camera.opening = 0.70f;
   return camera;
 }
@@ -143,23 +143,23 @@ game::Key seen_from(Viewpoint viewpoint, game::Key key) {
   return (viewpoint == Viewpoint::left_end ? from_left : from_right)[static_cast<std::size_t>(key)];
 }
 
-Picture picture_of(const MatchSight& sight, const ViewChoice& choice, double aspect) {
+Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice, double aspect) {
   Picture picture;
   picture.table = {static_cast<float>(sight.field.length), static_cast<float>(sight.field.width), static_cast<float>(sight.field.goal_width), left_colour, right_colour};
   picture.camera = camera_of(sight.field, choice, aspect);
   picture.board = board_of(sight, choice.viewpoint);
-  picture.overlay = sight.overlay;
+  picture.overlay = overlay;
   picture.pieces.reserve(sight.things.size());
   for (const Thing& thing : sight.things) picture.pieces.push_back(piece_of(thing));
   if (sight.scorer) (*sight.scorer == game::Team::right ? picture.left_glow : picture.right_glow) = static_cast<float>(std::exp(-1.6 * sight.since_goal_s));
   const bool is_stopped = sight.phase != Phase::playing && sight.phase != Phase::countdown;
-  picture.dimming = is_stopped ? 0.55f : 0.0f;
+  picture.dimming = is_stopped ? 0.55f : sight.phase == Phase::countdown ? 0.25f : 0.0f;
   add_names(sight, choice, picture.texts);
   add_headlines(sight, picture.texts);
   if (!sight.notice.empty()) picture.texts.push_back({.words = sight.notice, .y = 0.955f, .size = 0.032f, .colour = white});
   if (choice.shows_link) add_link(sight, choice, picture.texts);
   float y = 0.12f;
-  for (const std::string& line : sight.overlay.lines) {
+  for (const std::string& line : overlay.lines) {
     picture.texts.push_back({.words = line, .x = 0.02f, .y = y, .size = 0.028f, .align = Text::Align::left, .colour = pale});
     y += 0.034f;
   }

@@ -26,7 +26,8 @@ Colour colour_of(game::Team team);
 /// `aspect` is width by height of the window.
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect);
 
-Picture picture_of(const MatchSight& sight, const ViewChoice& choice, double aspect);
+/// `overlay` lies over the table as it is.
+Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice, double aspect);
 
 /// The key of the field that the player's key means who sees the field from `viewpoint`: forward is away from the player.
 game::Key seen_from(Viewpoint viewpoint, game::Key key);

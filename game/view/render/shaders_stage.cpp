@@ -67,7 +67,7 @@ void main() {
   else if (kind == 2) {
     vec3 grain = linear(texture(wood, texel).rgb);
     float low = normal.z > 0.5 ? 1.0 : smoothstep(-0.30, 0.03, world.z);
-    light = shaded(grain * colour, normal, to_eye, 0.55, mix(0.25, 1.0, low), 1.0);
+    light = shaded(grain * colour, normal, to_eye, 0.38, mix(0.25, 1.0, low), 1.0);
     vec2 inside = min(world.xy, field.xy - world.xy);
     if (normal.z < 0.5 && world.z > 0.0 && min(inside.x, inside.y) > -0.012 * field.y) light += bands(world.xy) * 0.35;
   } else if (kind == 3) light = shaded(colour, normal, to_eye, 0.35, 1.0, 1.0);

@@ -1,0 +1,76 @@
+// Lets the flow of the match decide when the game runs, and shows the game as it is.
+#include "game/match/local_match.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace rink::game {
+
+LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings) : scene_(scene), settings_(settings), flow_(settings.times), sight_(sight_of(scene)) {
+  assert(scene.bodies.bats.size() == 2 && scene.rules.goals_to_win && settings.players.size() == 2);
+  for (std::uint32_t player = 0; player < 2; ++player)
+    if (settings_.players[player] == Playing::hand) hands_.push_back(player);
+  if (hands_.size() == 1) sight_.own_team = scene.bodies.bats[hands_.front()].team;
+  sight_.left_name = settings.left_name;
+  sight_.right_name = settings.right_name;
+}
+
+void LocalMatch::begin(double now_s) {
+  if (match_number_ == 0) {
+    flow_.enter(0, now_s);
+    flow_.enter(1, now_s);
+  }
+  match_number_ = flow_.state().number;
+  constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
+  playing_ = std::make_unique<Playing>(scene_, settings_.players, settings_.seed + match_number_ - 1, forever);
+}
+
+void LocalMatch::advance(double now_s) {
+  const double elapsed = now_s_ < 0.0 ? 0.0 : std::min(now_s - now_s_, frame_max_s);
+  now_s_ = now_s;
+  const bool was_running = flow_.runs();
+  flow_.advance(now_s);
+  if (flow_.state().number != match_number_ || match_number_ == 0) begin(now_s);
+  if (was_running && flow_.runs()) play(elapsed);
+  for (const PressedKey& pressed : std::exchange(pressed_, {})) playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
+  show();
+}
+
+void LocalMatch::play(double duration_s) {
+  playing_->advance(playing_->game().now() + duration_s);
+  if (!playing_->game().is_over()) return;
+  const Score& score = playing_->game().score();
+  flow_.win(score.left > score.right ? Team::left : Team::right);
+}
+
+void LocalMatch::press(std::uint32_t hand, Key key, bool is_down) {
+  assert(hand < hands_.size());
+  pressed_.push_back({hand, key, is_down});
+}
+
+void LocalMatch::pause(bool is_wanted) { flow_.pause(is_wanted, now_s_); }
+
+/// Bots are always ready.
+void LocalMatch::rematch() {
+  flow_.ask_rematch(0, now_s_);
+  flow_.ask_rematch(1, now_s_);
+}
+
+void LocalMatch::show() {
+  const Game& game = playing_->game();
+  sight_.time = game.now();
+  sight_.things.clear();
+  for (const Entity& entity : game.entities())
+    sight_.things.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.position(entity.id), .velocity = game.velocity(entity.id), .half_extent = entity.half_extent});
+  const bool is_played = flow_.state().phase != MatchPhase::over;
+  std::erase_if(sight_.things, [&](const Thing& thing) { return is_played && thing.kind == physics::BodyKind::puck && !game.simulator().is_in_play(physics::BodyId{thing.id}); });
+  sight_.score = game.score();
+  sight_.phase = flow_.state().phase;
+  sight_.remaining_s = std::max(0.0, flow_.state().until_s - now_s_);
+  sight_.winner = flow_.state().winner;
+  noises_.listen(sight_);
+  goals_.look(sight_, now_s_, scene_.rules.face_off_delay);
+}
+
+}  // namespace rink::game

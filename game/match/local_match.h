@@ -1,0 +1,64 @@
+// A match that is played here: by two at one keyboard, by one against a bot, or by two bots for the pleasure of looking on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/control/match_flow.h"
+#include "game/control/playing.h"
+#include "game/match/match_source.h"
+#include "game/match/noises.h"
+#include "game/match/sight.h"
+
+namespace rink::game {
+
+struct LocalMatchSettings {
+  std::uint64_t seed = 1;                     ///< of the bots; each rematch takes the next
+  std::vector<std::string> players{"hand", "hand"};  ///< of the left and the right bat: Playing::hand or a player's kind
+  std::string left_name = "Red", right_name = "Blue";
+  FlowTimes times{};
+};
+
+/// Real time becomes simulated time as it comes, but for pauses, countdowns and frames that took longer than `frame_max_s`.
+class LocalMatch final : public MatchSource {
+ public:
+  /// `scene` is one for a match of two with a winner (asserted).
+  LocalMatch(const Scene& scene, const LocalMatchSettings& settings);
+
+  static constexpr double frame_max_s = 0.1;
+
+  void advance(double now_s) override;
+  const MatchSight& sight() const override { return sight_; }
+  std::uint32_t hand_count() const override { return static_cast<std::uint32_t>(hands_.size()); }
+  void press(std::uint32_t hand, Key key, bool is_down) override;
+  void pause(bool is_wanted) override;
+  void rematch() override;
+
+  /// What was played since the last face-off that opened a match.
+  const Playing& playing() const { return *playing_; }
+
+ private:
+  struct PressedKey {
+    std::uint32_t hand;
+    Key key;
+    bool is_down;
+  };
+  void begin(double now_s);
+  void play(double duration_s);
+  void show();
+
+  Scene scene_;
+  LocalMatchSettings settings_;
+  MatchFlow flow_;
+  std::vector<std::uint32_t> hands_;  ///< bats that hands play
+  std::unique_ptr<Playing> playing_;
+  std::vector<PressedKey> pressed_;
+  std::uint32_t match_number_ = 0;
+  double now_s_ = -1.0;
+  MatchSight sight_;
+  NoiseDetector noises_;
+  GoalWatch goals_;
+};
+
+}  // namespace rink::game
