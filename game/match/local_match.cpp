@@ -62,7 +62,12 @@ void LocalMatch::show() {
   sight_.time = game.now();
   sight_.things.clear();
   for (const Entity& entity : game.entities())
-    sight_.things.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.position(entity.id), .velocity = game.velocity(entity.id), .half_extent = entity.half_extent});
+    sight_.things.push_back({.id = entity.id.index,
+                             .kind = entity.kind,
+                             .team = entity.team,
+                             .position = game.position(entity.id),
+                             .velocity = game.velocity(entity.id),
+                             .half_extent = entity.half_extent});
   const bool is_played = flow_.state().phase != MatchPhase::over;
   std::erase_if(sight_.things, [&](const Thing& thing) { return is_played && thing.kind == physics::BodyKind::puck && !game.simulator().is_in_play(physics::BodyId{thing.id}); });
   sight_.score = game.score();

@@ -17,11 +17,11 @@ namespace rink::view {
 
 /// What the application cannot do itself. Every function may be empty but `make_match`.
 struct Surroundings {
-  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match;  ///< throws std::exception with what is to be told
-  std::function<void(bool)> set_full_screen;
-  std::function<void(const Settings&)> save_settings;
-  std::function<void(const std::vector<Noise>&, const Settings&)> sound;
-  std::function<void(const std::string&)> tell;                              ///< troubles, for the standard error
+  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match{};  ///< throws std::exception with what is to be told
+  std::function<void(bool)> set_full_screen{};
+  std::function<void(const Settings&)> save_settings{};
+  std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
+  std::function<void(const std::string&)> tell{};                              ///< troubles, for the standard error
 };
 
 class Application {

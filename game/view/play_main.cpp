@@ -156,6 +156,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
       is_seen = is_seen || !step.picture.empty();
       is_ended = is_ended || step.is_end;
     }
+    if (is_seen) draw(size, target.framebuffer(), now, true);  // twice, for the first may be drawn as of a camera that moves
     draw(size, target.framebuffer(), now, is_seen);
     for (const view::ScriptStep& step : due)
       if (!step.picture.empty()) picture(step.picture, target.framebuffer(), size);
@@ -185,7 +186,9 @@ int main(int count, char** values) {
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
   view::PlayOptions options;
   view::add_options(app, options);
-  app.footer(std::string("Example: rink play --bot club\nKeys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes, F3 shows figures, F11 fills the screen.\n") +
+  app.footer(std::string("Example: rink play --bot club\n"
+                         "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes,\n"
+                         "F3 shows figures, F11 fills the screen.\n") +
              game::exit_status_help);
   try {
     app.parse(count, values);
