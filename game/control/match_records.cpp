@@ -1,0 +1,18 @@
+// The first number that is free.
+#include "game/control/match_records.h"
+
+#include <string>
+
+namespace rink::game {
+
+std::filesystem::path MatchRecords::write(const KeyLog& log) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw SceneError(folder_.string() + ": this folder for records of matches cannot be made: " + error.message());
+  const auto file = [this] { return folder_ / ("match-" + std::to_string(next_) + ".keys"); };
+  while (std::filesystem::exists(file(), error)) ++next_;
+  write_key_log(file(), log);
+  return file();
+}
+
+}  // namespace rink::game
