@@ -22,6 +22,7 @@ void feel(benchmark::State& state, double delay_s, double jitter_s) {
   if (!feel.is_replayed) state.SkipWithError("the record led to another hash");
   state.counters["played_s"] = feel.played_s;
   state.counters["own_p50_mm"] = 1e3 * feel.own.p50;
+  state.counters["own_p90_mm"] = 1e3 * feel.own.p90;
   state.counters["own_p99_mm"] = 1e3 * feel.own.p99;
   state.counters["own_max_mm"] = 1e3 * feel.own.greatest;
   state.counters["corrections_per_min"] = feel.corrections_per_min;
@@ -30,6 +31,7 @@ void feel(benchmark::State& state, double delay_s, double jitter_s) {
   state.counters["other_p99_mm"] = 1e3 * feel.other.p99;
   state.counters["other_corrections_per_min"] = feel.other_corrections_per_min;
   state.counters["puck_p50_mm"] = 1e3 * feel.puck.p50;
+  state.counters["puck_p90_mm"] = 1e3 * feel.puck.p90;
   state.counters["puck_p99_mm"] = 1e3 * feel.puck.p99;
   state.counters["puck_corrections_per_min"] = feel.puck_corrections_per_min;
   state.counters["puck_correction_mm"] = 1e3 * feel.puck_correction_mean;

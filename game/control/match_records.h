@@ -10,8 +10,11 @@ namespace rink::game {
 /// Names files match-1.keys, match-2.keys and so on; none that is there is overwritten.
 class MatchRecords {
  public:
-  /// The folder is made with the first record.
+  /// The folder is made when it is needed.
   explicit MatchRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Throws SceneError unless records can be written there: to be asked before a match is played.
+  void require_writable() const;
 
   /// Where it stands now. Throws SceneError if it cannot be written.
   std::filesystem::path write(const KeyLog& log);

@@ -26,6 +26,7 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
       planned_.insert(planned_.end(), keys.begin(), keys.end());
       continue;
     }
+    if (kind == hand) continue;
     const Bat& bat = scene.bodies.bats[number];
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
     seats_.push_back({number, decision_phase(number), make_player(kind, rules_of(scene, number), seat, seed), {}, {}});
@@ -89,10 +90,19 @@ void Playing::locate_pucks(double instant) {
 void Playing::press(Seat& seat, KeysHeld wanted, double instant) {
   for (const Key key : all_keys) {
     if (wanted.is_down(key) == seat.held.is_down(key)) continue;
-    decided_.push_back({instant, seat.number, wanted.is_down(key) ? InputKind::key_down : InputKind::key_up, key});
-    game_.submit(decided_.back());
+    submit({instant, seat.number, wanted.is_down(key) ? InputKind::key_down : InputKind::key_up, key});
   }
   seat.held = wanted;
+}
+
+void Playing::press(std::uint32_t player, Key key, bool is_down) {
+  assert(std::ranges::none_of(seats_, [player](const Seat& seat) { return seat.number == player; }));
+  submit({game_.now(), player, is_down ? InputKind::key_down : InputKind::key_up, key});
+}
+
+void Playing::submit(const InputEvent& event) {
+  decided_.insert(std::upper_bound(decided_.begin(), decided_.end(), event, is_earlier), event);
+  game_.submit(event);
 }
 
 std::vector<InputEvent> Playing::keys() const {

@@ -15,12 +15,18 @@ namespace rink::game {
 /// instant. The same arguments give the same events, and submitting these to a Game of the same scene gives the same game, bit for bit.
 class Playing {
  public:
-  /// `kinds`, at least one: bat k is played by kind k modulo their number, each "random" or one of player_kinds() (asserted). `until`: how long random players are
+  /// The kind of a bat that nobody decides for: whoever calls press() plays it.
+  static constexpr const char* hand = "hand";
+
+  /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, "random" or one of player_kinds() (asserted). `until`: how long random players are
   /// to press keys [s]. `engine`: what moves the bodies.
   Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed, double until, const physics::SimulatorChoice& engine = {});
 
   /// Plays up to and including `until` [s].
   void advance(double until);
+
+  /// A key of `player`, whose kind is `hand` (asserted), at now().
+  void press(std::uint32_t player, Key key, bool is_down);
 
   const Game& game() const { return game_; }
   /// As Game's: from now on `events` tells all that happens to a body, of the last `advance`.
@@ -44,6 +50,7 @@ class Playing {
   void look_about(Seat& seat, const Vector2& from, double instant);
   void locate_pucks(double instant);
   void press(Seat& seat, KeysHeld wanted, double instant);
+  void submit(const InputEvent& event);
 
   Game game_;
   std::vector<Seat> seats_;  ///< in order of phase

@@ -1,99 +1,80 @@
-// Real time goes through the rules around the match; keys take effect at the frame in which they were pressed, a bot's at its own instants.
+// Lets the flow of the match decide when the game runs, and shows the game as it is.
 #include "game/match/local_match.h"
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "game/control/replay.h"
 
 namespace rink::game {
 
-LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings)
-    : scene_(scene), settings_(settings), flow_(settings.times), game_(scene), sight_(sight_of(scene)) {
-  assert(!match_objection(scene));
+LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings) : scene_(scene), settings_(settings), flow_(settings.times), sight_(sight_of(scene)) {
+  assert(!match_objection(scene) && settings.players.size() == 2);
+  for (std::uint32_t player = 0; player < 2; ++player)
+    if (settings_.players[player] == Playing::hand) hands_.push_back(player);
+  if (hands_.size() == 1) sight_.own_team = scene.bodies.bats[hands_.front()].team;
+  sight_.left_name = settings.left_name;
+  sight_.right_name = settings.right_name;
+}
+
+void LocalMatch::begin(double now_s) {
+  if (match_number_ == 0) {
+    flow_.enter(0, now_s);
+    flow_.enter(1, now_s);
+  }
+  finish();
+  is_finished_ = false;
+  match_number_ = flow_.state().number;
+  constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
+  playing_ = std::make_unique<Playing>(scene_, settings_.players, settings_.seed + match_number_ - 1, forever);
+}
+
+void LocalMatch::advance(double now_s) {
+  const double elapsed = now_s_ < 0.0 ? 0.0 : std::min(now_s - now_s_, frame_max_s);
+  now_s_ = now_s;
+  const bool was_running = flow_.runs();
+  flow_.advance(now_s);
+  if (flow_.state().number != match_number_ || match_number_ == 0) begin(now_s);
+  if (was_running && flow_.runs()) play(elapsed);
+  if (flow_.state().phase == MatchPhase::over) finish(), pressed_.clear();
+  for (const PressedKey& pressed : std::exchange(pressed_, {})) playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
+  show();
+}
+
+void LocalMatch::finish() {
+  if (!is_finished_ && playing_->game().now() > 0.0) finished_.push_back(log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys()));
+  is_finished_ = true;
+}
+
+void LocalMatch::play(double duration_s) {
+  playing_->advance(playing_->game().now() + duration_s);
+  if (!playing_->game().is_over()) return;
+  const Score& score = playing_->game().score();
+  flow_.win(score.left > score.right ? Team::left : Team::right, now_s_);
 }
 
 void LocalMatch::press(std::uint32_t hand, Key key, bool is_down) {
-  assert(hand < hand_count());
+  assert(hand < hands_.size());
   pressed_.push_back({hand, key, is_down});
 }
 
 void LocalMatch::pause(bool is_wanted) { flow_.pause(is_wanted, now_s_); }
 
+/// Bots are always ready.
 void LocalMatch::rematch() {
-  for (const std::uint32_t player : {0u, 1u}) flow_.ask_rematch(player, now_s_);
+  flow_.ask_rematch(0, now_s_);
+  flow_.ask_rematch(1, now_s_);
 }
 
-void LocalMatch::advance(double now_s) {
-  now_s_ = now_s;
-  if (!has_begun_)
-    for (const std::uint32_t player : {0u, 1u}) flow_.enter(player, now_s);
-  has_begun_ = true;
-  flow_.advance(now_s);
-  if (flow_.state().number != number_) begin();
-  const double until = std::max(game_.now(), simulated_at(flow_.state(), now_s));
-  if (flow_.state().phase != MatchPhase::over)
-    for (const PressedKey& key : pressed_) press_at(until, key);
-  pressed_.clear();
-  play(until);
-  if (flow_.runs() && game_.is_over()) flow_.win(game_.score().left > game_.score().right ? Team::left : Team::right, now_s);
-  if (flow_.state().phase == MatchPhase::over) finish();
-  show(now_s);
-}
-
-void LocalMatch::begin() {
-  finish();
-  number_ = flow_.state().number;
-  is_finished_ = false;
-  game_ = Game(scene_);
-  decisions_ = 0;
-  bot_holds_ = {};
-  if (settings_.opponent.empty()) return;
-  const Bat& bat = scene_.bodies.bats[1];
-  bot_ = make_player(settings_.opponent, rules_of(scene_, 1), {.number = 1, .team = bat.team, .half_extent = bat.body.half_extent}, settings_.seed + number_);
-}
-
-void LocalMatch::finish() {
-  if (!is_finished_ && game_.now() > 0.0) finished_.push_back(log_of(game_, scene_, settings_.scene_text, std::exchange(events_, {})));
-  is_finished_ = true;
-  events_.clear();
-}
-
-void LocalMatch::press_at(double instant, const PressedKey& key) {
-  events_.push_back({instant, key.player, key.is_down ? InputKind::key_down : InputKind::key_up, key.key});
-  game_.submit(events_.back());
-}
-
-void LocalMatch::play(double until) {
-  for (; bot_ && static_cast<double>(decisions_) * decision_period < until; ++decisions_) {
-    const double instant = static_cast<double>(decisions_) * decision_period;
-    game_.advance(std::max(instant, game_.now()));
-    if (flow_.runs() && !game_.is_over()) decide(game_.now());
-  }
-  game_.advance(until);
-}
-
-void LocalMatch::decide(double instant) {
-  std::vector<SeenEntity> pucks;
-  for (const Entity& entity : game_.entities())
-    if (entity.kind == physics::BodyKind::puck && game_.simulator().is_in_play(entity.id))
-      pucks.push_back({entity.id.index, entity.kind, game_.position(entity.id), game_.velocity(entity.id), entity.half_extent});
-  const EntityId bat = *game_.bat(1);
-  const KeysHeld wanted = bot_->decide({.position = game_.position(bat), .velocity = game_.velocity(bat), .pucks = pucks}, instant);
-  for (const Key key : all_keys)
-    if (wanted.is_down(key) != bot_holds_.is_down(key)) press_at(instant, {1, key, wanted.is_down(key)});
-  bot_holds_ = wanted;
-}
-
-void LocalMatch::show(double now_s) {
-  show_game(game_, sight_);
-  const MatchState& state = flow_.state();
-  sight_.phase = state.phase;
-  sight_.winner = state.winner;
-  sight_.remaining_s = state.phase == MatchPhase::countdown ? std::max(0.0, state.until_s - now_s) : 0.0;
-  if (!settings_.opponent.empty()) sight_.own_team = Team::left;
-  goals_.look(sight_, now_s, scene_.rules.face_off_delay);
+void LocalMatch::show() {
+  const Game& game = playing_->game();
+  show_game(game, sight_);
+  sight_.phase = flow_.state().phase;
+  sight_.remaining_s = std::max(0.0, flow_.state().until_s - now_s_);
+  sight_.winner = flow_.state().winner;
   noises_.listen(sight_);
+  goals_.look(sight_, now_s_, scene_.rules.face_off_delay);
 }
 
 }  // namespace rink::game

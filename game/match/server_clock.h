@@ -11,7 +11,7 @@ namespace rink::game {
 /// arrived, and that is all that a key's stamp needs. Pure: real time is handed in and never falls.
 class ServerClock {
  public:
-  static constexpr double question_period = 0.5;  ///< s
+  static constexpr double question_period = 1.0;  ///< s
 
   /// The number of the question to send now, if one is due.
   std::optional<std::uint64_t> ask(double now_s);
@@ -34,7 +34,7 @@ class ServerClock {
   static constexpr double margin = 5e-3;        ///< s: for what the network does that it did not do of late
   static constexpr double slew = 0.1;           ///< how fast estimates move: a tenth of real time is not noticed
   static constexpr double jump_from = 0.25;     ///< s: what is further off jumps
-  static constexpr std::size_t remembered = 16; ///< answers, 8 s of them
+  static constexpr std::size_t remembered = 16; ///< answers: a quarter of a minute
   struct Question {
     std::uint64_t number;
     double sent_s;

@@ -20,12 +20,10 @@ MatchSight sight_of(const Scene& scene) {
 void show_game(const Game& game, MatchSight& sight) {
   sight.time = game.now();
   sight.score = game.score();
-  std::size_t puck = game.player_count();
+  sight.things.clear();
   for (const Entity& entity : game.entities()) {
-    if (entity.kind == physics::BodyKind::post) continue;
-    Thing& thing = sight.things[entity.player ? *entity.player : puck++];
-    thing.position = game.position(entity.id);
-    thing.velocity = game.velocity(entity.id);
+    if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) && !game.is_over()) continue;
+    sight.things.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.position(entity.id), .velocity = game.velocity(entity.id), .half_extent = entity.half_extent});
   }
 }
 

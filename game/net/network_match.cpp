@@ -106,6 +106,7 @@ bool NetworkMatch::read_scene() {
     Scene scene = parse_scene(text, "match.toml");
     if (const auto objection = match_objection(scene)) throw SceneError(*objection);
     sight_ = sight_of(scene);
+    all_things_ = sight_.things;
     scene_ = std::move(scene);
   } catch (const SceneError& error) {
     lose(std::string("the server's scene cannot be played: ") + error.what());

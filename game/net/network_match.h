@@ -41,6 +41,8 @@ class NetworkMatch final : public MatchSource {
   const Client& client() const { return client_; }
   /// Null while no match is known.
   const PredictedRink* prediction() const { return rink_ ? &*rink_ : nullptr; }
+  /// The scene that is played; null before it is known.
+  const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
   /// The player whose bat this is, once it is known.
   std::optional<std::uint32_t> player() const { return settings_.only_watches ? std::nullopt : client_.bat_number(); }
 
@@ -78,6 +80,7 @@ class NetworkMatch final : public MatchSource {
   std::uint32_t match_number_ = 0;   ///< that rink_ foretells
   std::uint64_t heard_updates_ = 0;
   std::vector<PressedKey> pressed_;
+  std::vector<Thing> all_things_;    ///< of the scene
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;

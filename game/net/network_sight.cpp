@@ -16,6 +16,7 @@ void NetworkMatch::show(double now_s) {
 }
 
 void NetworkMatch::show_bodies() {
+  sight_.things = all_things_;
   std::size_t thing = 0;
   for (const auto* bodies : {&rink_->bats(), &rink_->pucks()})
     for (const ShownBody& body : *bodies) {
@@ -23,6 +24,8 @@ void NetworkMatch::show_bodies() {
       sight_.things[thing++].velocity = body.velocity;
     }
   sight_.time = rink_->now();
+  const auto is_scored = [&](const Thing& each) { return each.kind == physics::BodyKind::puck && (each.position.x() < 0.0 || each.position.x() > sight_.field.length); };
+  if (state_.phase != MatchPhase::over) std::erase_if(sight_.things, is_scored);
 }
 
 /// A game that is no match: everything on its path, as far as it was told.

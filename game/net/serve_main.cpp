@@ -223,6 +223,7 @@ Json ServerProcess::report() const {
 void require_match(const game::ServeOptions& options, const game::Scene& scene) {
   if (const auto objection = game::match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
   if (game::scene_text(options.scene).size() > game::SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
+  game::MatchRecords(options.record).require_writable();
   if (!options.keys.empty() || options.pace != "realtime") throw std::runtime_error("a hosted match is played by its players in real time: --keys and --pace cannot be given");
 }
 

@@ -24,7 +24,6 @@ Duel::Client::Client(rti::VirtualNetwork& network, const rti::Fom& fom, const ga
 Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings)
     : fom_(fom),
       model_(fom),
-      scene_(scene),
       settings_(settings),
       link_(settings.delay_s, settings.jitter_s, settings.seed),
       network_(link_, nanoseconds(1.0)),
@@ -40,10 +39,7 @@ Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& sce
 
 void Duel::connect(std::size_t k) {
   clients_[k] = std::make_unique<Client>(network_, fom_, model_, "player-" + std::to_string(k));
-  if (settings_.players[k].empty()) return;
-  const game::Bat& bat = scene_.bodies.bats[k];
-  const game::PlayerSeat seat{.number = static_cast<std::uint32_t>(k), .team = bat.team, .half_extent = bat.body.half_extent};
-  clients_[k]->player = game::make_player(settings_.players[k], game::rules_of(scene_, seat.number), seat, settings_.seed);
+  if (!settings_.players[k].empty()) clients_[k]->bot.emplace(settings_.players[k], settings_.seed);
 }
 
 void Duel::leave(std::size_t k) {
@@ -88,24 +84,9 @@ void Duel::tick() {
 void Duel::frame(std::size_t k) {
   frames_[k].next_ns += frames_[k].period_ns;
   if (clients_[k] == nullptr) return;
-  if (clients_[k]->player && now_s() >= clients_[k]->decides_at_s) decide(k);
+  if (clients_[k]->bot) clients_[k]->bot->act(*clients_[k]->match, now_s());
   clients_[k]->match->advance(now_s());
   if (watch) watch(k);
-}
-
-void Duel::decide(std::size_t k) {
-  Client& client = *clients_[k];
-  client.decides_at_s = now_s() + game::decision_period;
-  const game::MatchSight& sight = client.match->sight();
-  if (sight.phase != game::MatchPhase::playing || sight.things.size() < 3) return;
-  std::vector<game::SeenEntity> pucks;
-  for (const game::Thing& thing : sight.things)
-    if (thing.kind == physics::BodyKind::puck && thing.position.x() > 0.0 && thing.position.x() < sight.field.length)
-      pucks.push_back({.id = thing.id, .kind = thing.kind, .position = thing.position, .velocity = thing.velocity, .half_extent = thing.half_extent});
-  const game::KeysHeld wanted = client.player->decide({.position = sight.things[k].position, .velocity = sight.things[k].velocity, .pucks = pucks}, sight.time);
-  for (const game::Key key : game::all_keys)
-    if (wanted.is_down(key) != client.held.is_down(key)) client.match->press(0, key, wanted.is_down(key));
-  client.held = wanted;
 }
 
 }  // namespace rink::loadgen

@@ -11,7 +11,7 @@
 #include "game/model/random_stream.h"
 #include "game/net/network_match.h"
 #include "game/net/serving.h"
-#include "game/players/player.h"
+#include "loadgen/duel/match_bot.h"
 #include "rti/transport/virtual_network.h"
 
 namespace rink::loadgen {
@@ -65,9 +65,7 @@ class Duel {
     Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model, const std::string& name);
     rti::VirtualEndpoint end;
     std::unique_ptr<game::NetworkMatch> match;
-    std::unique_ptr<game::Player> player;
-    game::KeysHeld held;
-    double decides_at_s = 0.0;
+    std::optional<MatchBot> bot;
   };
   struct Frames {
     std::int64_t next_ns = 0, period_ns = 0;
@@ -76,11 +74,9 @@ class Duel {
   void step_to(std::int64_t until_ns);
   void tick();
   void frame(std::size_t k);
-  void decide(std::size_t k);
 
   const rti::Fom& fom_;
   const game::ObjectModel model_;
-  game::Scene scene_;
   DuelSettings settings_;
   JitteredDelay link_;
   rti::VirtualNetwork network_;

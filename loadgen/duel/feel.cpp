@@ -25,6 +25,7 @@ ShownError error_of(std::vector<double>& errors) {
   for (const double each : errors) error.mean += each / static_cast<double>(errors.size());
   const auto at = [&](double fraction) { return errors[static_cast<std::size_t>(fraction * static_cast<double>(errors.size() - 1))]; };
   error.p50 = at(0.5);
+  error.p90 = at(0.9);
   error.p99 = at(0.99);
   return error;
 }

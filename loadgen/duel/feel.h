@@ -12,7 +12,7 @@ namespace rink::loadgen {
 /// Distances between what was shown and what was true at the instant that was meant [m].
 struct ShownError {
   std::uint64_t count = 0;
-  double mean = 0.0, p50 = 0.0, p99 = 0.0, greatest = 0.0;
+  double mean = 0.0, p50 = 0.0, p90 = 0.0, p99 = 0.0, greatest = 0.0;
 };
 
 /// Of both players together.

@@ -15,13 +15,13 @@ struct Colour {
 /// Places and sizes are those of the field [m].
 struct OverlayRectangle {
   double low_x = 0.0, low_y = 0.0, high_x = 0.0, high_y = 0.0;
-  Colour fill, outline;
+  Colour fill{}, outline{};
 };
 
 /// A ring about a body, or a colour over it where `is_filled`.
 struct OverlayDisc {
   double x = 0.0, y = 0.0, radius = 0.0;
-  Colour colour;
+  Colour colour{};
   bool is_filled = false;
 };
 

@@ -1,0 +1,86 @@
+// What a window shows and does from start to end: menus, matches, keys. Knows no window, no clock and no OpenGL context of its own.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/view/interface.h"
+#include "game/view/match_source.h"
+#include "game/view/menu.h"
+#include "game/view/picture_of.h"
+#include "game/view/settings.h"
+
+namespace rink::view {
+
+/// What the application cannot do itself. Every function may be empty but `make_match`.
+struct Surroundings {
+  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match;  ///< throws std::exception with what is to be told
+  std::function<void(bool)> set_full_screen;
+  std::function<void(const Settings&)> save_settings;
+  std::function<void(const std::vector<Noise>&, const Settings&)> sound;
+  std::function<void(const std::string&)> tell;                              ///< troubles, for the standard error
+};
+
+class Application {
+ public:
+  Application(Surroundings surroundings, const Settings& settings);
+
+  /// Starts a match instead of showing the menu; once it ends the menu is shown. What goes wrong is explained there.
+  void play(const MatchWish& wish);
+  /// Explained in the menu and told.
+  void explain(const std::string& trouble);
+  void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
+
+  void show_figures() { shows_figures_ = true; }
+
+  void hear(const WindowEvent& event);
+  /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL, must exist.
+  /// Without a renderer the instant passes unseen: nothing but widgets is drawn.
+  void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s);
+
+  bool wants_to_quit() const { return wants_to_quit_; }
+  /// Of a match that was started by play(): true once it is over or gone.
+  bool is_in_menu() const { return wish_.kind == MatchWish::Kind::bots; }
+  const MatchSight& sight() const { return match_->sight(); }
+  /// What an experiment wants to be seen over the match.
+  void set_overlay(const Overlay& overlay) { overlay_ = overlay; }
+
+ private:
+  struct HeldKey {
+    KeyCode code;
+    std::uint32_t hand;
+    game::Key key;
+  };
+
+  void start(const MatchWish& wish);
+  void do_wish(const MenuWish& wish);
+  void hear_key(KeyCode code, bool is_down);
+  bool hear_command(KeyCode code);
+  void hear_mouse(const WindowEvent& event);
+  void press(KeyCode code, const Bound& bound);
+  void release(KeyCode code);
+  void release_all();
+  void set_paused(bool is_wanted);
+  void follow_phase();
+  ViewChoice view(const MatchSight& sight, double now_s);
+
+  Surroundings surroundings_;
+  Settings settings_;
+  Menu menu_;
+  MatchWish wish_;
+  std::unique_ptr<MatchSource> match_;
+  std::vector<HeldKey> held_;
+  std::optional<Viewpoint> chosen_viewpoint_;
+  ViewChoice view_;
+  Overlay overlay_;
+  bool shows_figures_ = false, follows_ = false, is_dragging_ = false;
+  double mouse_x_ = 0.0, mouse_y_ = 0.0;
+  WindowSize size_;
+  double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
+  bool wants_to_quit_ = false;
+};
+
+}  // namespace rink::view

@@ -1,0 +1,211 @@
+// One function a screen; every screen works with the mouse and with arrows, Enter and Escape.
+#include "game/view/menu.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui/imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "game/view/picture_of.h"
+
+namespace rink::view {
+namespace {
+
+ImVec4 vector_of(const Colour& colour) { return {colour.red, colour.green, colour.blue, colour.alpha}; }
+
+void words_in_the_middle(const char* words) {
+  ImGui::SetCursorPosX(0.5f * (ImGui::GetWindowWidth() - ImGui::CalcTextSize(words).x));
+  ImGui::TextUnformatted(words);
+}
+
+}  // namespace
+
+void Menu::open(Screen screen) {
+  if (screen == Screen::settings) back_ = screen_;
+  screen_ = screen;
+  is_fresh_ = true;
+  binding_.reset();
+}
+
+void Menu::explain(const std::string& trouble) {
+  open(Screen::main);
+  trouble_ = trouble;
+}
+
+bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
+  if (binding_) {
+    const Binding binding = *std::exchange(binding_, std::nullopt);
+    if (code == GLFW_KEY_ESCAPE || !key_code_name(code)) return true;
+    KeyCode& place = settings.keys[binding.hand][binding.key];
+    if (const auto other = bound(settings, code)) settings.keys[other->hand][static_cast<std::size_t>(other->key)] = place;  // keys change places, so that none has two meanings
+    place = code;
+    wish.kind = MenuWish::Kind::settings_changed;
+    return true;
+  }
+  if (code != GLFW_KEY_ESCAPE || screen_ == Screen::none) return false;
+  if (screen_ == Screen::settings) open(back_);
+  else if (screen_ == Screen::paused) wish.kind = MenuWish::Kind::resume;
+  else if (screen_ == Screen::over) wish.kind = MenuWish::Kind::leave;
+  else open(Screen::main);
+  return true;
+}
+
+bool Menu::button(const char* words) {
+  if (std::exchange(is_fresh_, false)) ImGui::SetKeyboardFocusHere();
+  return ImGui::Button(words, {ImGui::GetContentRegionAvail().x, 0.0f});
+}
+
+/// `middle`: the height of the panel's own middle, as a part of the window's.
+void Menu::begin_panel(const char* name, float width, float middle) const {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5f * size.x, middle * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width * unit_, 0.0f}, ImGuiCond_Always);
+  if (is_fresh_) ImGui::SetNextWindowFocus();
+  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+void Menu::draw_title() const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  ImFont* font = interface_->title_font();
+  const float height = 128.0f * unit_;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize, extent = font->CalcTextSizeA(height, 1e6f, 0.0f, "RINK");
+  ImVec2 place(0.5f * (screen.x - extent.x), 0.155f * screen.y - 0.5f * extent.y);
+  for (const auto& [letters, colour] : {std::pair{"RI", left_colour}, {"NK", right_colour}}) {
+    list.AddText(font, height, {place.x + 5.0f * unit_, place.y + 5.0f * unit_}, IM_COL32(0, 0, 6, 190), letters);
+    list.AddText(font, height, place, ImGui::ColorConvertFloat4ToU32(vector_of(colour)), letters);
+    place.x += font->CalcTextSizeA(height, 1e6f, 0.0f, letters).x;
+  }
+}
+
+void Menu::draw_trouble() const {
+  if (trouble_.empty()) return;
+  ImGui::PushFont(interface_->small_font());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.62f, 0.52f, 1.0f));
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(trouble_.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchSight& sight) {
+  MenuWish wish;
+  interface_ = &interface;
+  unit_ = interface.unit();
+  if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused) draw_title();
+  switch (screen_) {
+    case Screen::none: break;
+    case Screen::main: draw_main(wish); break;
+    case Screen::bot: draw_bot(wish); break;
+    case Screen::host: draw_address(wish, MatchWish::Kind::host, "Host a match", "port", "Host"); break;
+    case Screen::join: draw_address(wish, MatchWish::Kind::join, "Join a match", "host:port", "Join"); break;
+    case Screen::watch: draw_address(wish, MatchWish::Kind::watch, "Watch a match or a crowd", "host:port", "Watch"); break;
+    case Screen::settings: draw_settings(settings, wish); break;
+    case Screen::paused: draw_paused(wish); break;
+    case Screen::over: draw_over(wish, sight); break;
+  }
+  if (wish.kind == MenuWish::Kind::play) trouble_.clear();
+  return wish;
+}
+
+void Menu::draw_main(MenuWish& wish) {
+  begin_panel("main", 470.0f, 0.60f);
+  if (button("Two players")) wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::two, .address = {}}};
+  if (button("Against a bot")) open(Screen::bot);
+  if (button("Host a match")) open(Screen::host);
+  if (button("Join a match")) open(Screen::join);
+  if (button("Watch")) open(Screen::watch);
+  if (button("Settings")) open(Screen::settings);
+  if (button("Quit")) wish.kind = MenuWish::Kind::quit;
+  draw_trouble();
+  ImGui::End();
+}
+
+void Menu::draw_bot(MenuWish& wish) {
+  begin_panel("bot", 470.0f, 0.56f);
+  words_in_the_middle("How strong?");
+  constexpr std::array labels{"Beginner", "Club player", "Expert"};
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (button(labels[i])) wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::bot, .strength = bot_strengths[i], .address = {}}};
+  ImGui::Separator();
+  if (button("Back")) open(Screen::main);
+  ImGui::End();
+}
+
+void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint, const char* verb) {
+  begin_panel("address", 560.0f, 0.56f);
+  words_in_the_middle(title);
+  std::string& text = kind == MatchWish::Kind::host ? port_ : address_;
+  if (std::exchange(is_fresh_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  const bool is_entered = ImGui::InputTextWithHint("##address", hint, &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  if (button(verb) || is_entered) wish = {MenuWish::Kind::play, {.kind = kind, .address = text}};
+  ImGui::Separator();
+  if (button("Back")) open(Screen::main);
+  draw_trouble();
+  ImGui::End();
+}
+
+void Menu::draw_keys(Settings& settings) {
+  constexpr std::array directions{"left", "right", "up", "down"};
+  if (!ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingStretchSame)) return;
+  ImGui::TableNextRow();
+  for (const auto& [column, words, colour] : {std::tuple{1, "Red", left_colour}, {2, "Blue", right_colour}}) {
+    ImGui::TableSetColumnIndex(column);
+    ImGui::TextColored(vector_of(colour), "%s", words);
+  }
+  for (std::size_t key = 0; key < directions.size(); ++key) {
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(0);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(directions[key]);
+    for (std::size_t hand = 0; hand < settings.keys.size(); ++hand) {
+      ImGui::TableSetColumnIndex(static_cast<int>(hand) + 1);
+      const bool is_waiting = binding_ && binding_->hand == hand && binding_->key == key;
+      const std::string words = (is_waiting ? "press a key" : key_code_name(settings.keys[hand][key]).value_or("?")) + "##" + std::to_string(hand * 4 + key);
+      if (button(words.c_str())) binding_ = Binding{hand, key};
+    }
+  }
+  ImGui::EndTable();
+}
+
+void Menu::draw_settings(Settings& settings, MenuWish& wish) {
+  begin_panel("settings", 760.0f, 0.60f);
+  const Settings before = settings;
+  draw_keys(settings);
+  ImGui::Separator();
+  ImGui::PushFont(interface_->small_font());
+  ImGui::Checkbox("Mute", &settings.is_muted);
+  ImGui::SameLine();
+  float volume = static_cast<float>(settings.volume);
+  ImGui::SetNextItemWidth(220.0f * unit_);
+  if (ImGui::SliderFloat("Volume", &volume, 0.0f, 1.0f, "%.2f")) settings.volume = std::clamp(static_cast<double>(volume), 0.0, 1.0);
+  ImGui::SameLine();
+  if (ImGui::Checkbox("Full screen", &settings.is_full_screen)) wish.kind = MenuWish::Kind::full_screen;
+  ImGui::PopFont();
+  if (button("Keys as they were")) settings.keys = default_keys();
+  if (button("Back")) open(back_);
+  ImGui::End();
+  if (settings != before && wish.kind == MenuWish::Kind::nothing) wish.kind = MenuWish::Kind::settings_changed;
+}
+
+void Menu::draw_paused(MenuWish& wish) {
+  begin_panel("paused", 420.0f, 0.70f);
+  if (button("Go on")) wish.kind = MenuWish::Kind::resume;
+  if (button("Settings")) open(Screen::settings);
+  if (button("Leave the match")) wish.kind = MenuWish::Kind::leave;
+  ImGui::End();
+}
+
+void Menu::draw_over(MenuWish& wish, const MatchSight& sight) {
+  begin_panel("over", 420.0f, 0.74f);
+  if (sight.wants_rematch) words_in_the_middle("Waiting for the other");
+  else if (button("Rematch")) wish.kind = MenuWish::Kind::rematch;
+  if (sight.other_wants_rematch) words_in_the_middle("The other wants a rematch");
+  if (button("Menu")) wish.kind = MenuWish::Kind::leave;
+  ImGui::End();
+}
+
+}  // namespace rink::view

@@ -1,0 +1,208 @@
+// rink play: the window, its clock, and the matches that the player wishes.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "game/match/local_match.h"
+#include "game/model/scene_file.h"
+#include "game/net/exit_status.h"
+#include "game/view/application.h"
+#include "game/view/play_options.h"
+#include "game/view/render/image_file.h"
+#include "game/view/render/offscreen.h"
+#include "game/view/script.h"
+#include "game/view/sounds.h"
+#include "game/view/window.h"
+
+namespace {
+
+using namespace rink;
+using view::MatchWish;
+
+constexpr double offscreen_frame_s = 1.0 / 60.0, shortest_frame_s = 1.0 / 250.0;  // the latter where the driver does not wait for the screen
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void tell(const std::string& trouble) { std::cerr << "rink play: " << trouble << '\n'; }
+
+std::string bot_kind(const std::string& strength) { return strength == "club" ? "chaser" : "chaser-" + strength; }
+
+std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, std::uint64_t seed) {
+  using Kind = MatchWish::Kind;
+  const std::string hand = game::Playing::hand;
+  const game::Scene scene = game::load_scene("match");
+  game::LocalMatchSettings settings{.seed = seed};
+  if (wish.kind == Kind::two) return std::make_unique<game::LocalMatch>(scene, settings);
+  settings.players = wish.kind == Kind::bots ? std::vector<std::string>{"chaser", "chaser"} : std::vector<std::string>{hand, bot_kind(wish.strength)};
+  if (wish.kind == Kind::bots) settings.times.countdown_s = 0.0;
+  settings.left_name = "You";
+  settings.right_name = "Bot";
+  return std::make_unique<game::LocalMatch>(scene, settings);
+}
+
+/// The application with what it needs of the process: settings on disk, sound, standard error.
+class Process {
+ public:
+  explicit Process(const view::PlayOptions& options) : options_(options), settings_file_(options.settings_file.empty() ? view::settings_file() : options.settings_file) {
+    view::ReadSettings read = view::read_settings(settings_file_);
+    settings_ = read.settings;
+    if (options.is_muted) settings_.is_muted = true;
+    if (options.is_full_screen) settings_.is_full_screen = true;
+    for (const std::string& trouble : read.troubles) troubles_ += (troubles_.empty() ? "" : "\n") + trouble;
+    if (!options.script.empty()) script_ = view::read_script(options.script);
+    if (!options.screenshot.empty()) {
+      script_.push_back({.time = options.at_s, .events = {}, .picture = options.screenshot});
+      script_.push_back({.time = options.at_s, .events = {}, .picture = {}, .is_end = true});
+    }
+  }
+
+  void run_in_window(const view::WindowSize& size);
+  void run_offscreen(const view::WindowSize& size);
+
+ private:
+  /// What draws must be gone before its context is.
+  class Opened {
+   public:
+    Opened(Process& process, view::Window* window) : process_(process) { process.open(window); }
+    ~Opened() { process_.close(); }
+    Opened(const Opened&) = delete;
+    Opened& operator=(const Opened&) = delete;
+
+   private:
+    Process& process_;
+  };
+
+  void open(view::Window* window);
+  void close();
+  void picture(const std::string& file, GLuint framebuffer, const view::WindowSize& size) const { view::write_png(file, view::read_pixels(framebuffer, size.width, size.height)); }
+  void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
+
+  view::PlayOptions options_;
+  std::string settings_file_, troubles_;
+  view::Settings settings_;
+  std::vector<view::ScriptStep> script_;
+  std::size_t next_step_ = 0;
+  std::unique_ptr<view::Sounds> sounds_;
+  std::unique_ptr<view::Interface> interface_;
+  std::unique_ptr<view::Renderer> renderer_;
+  std::unique_ptr<view::Application> application_;
+};
+
+void Process::open(view::Window* window) {
+  interface_ = std::make_unique<view::Interface>();
+  renderer_ = std::make_unique<view::Renderer>();
+  view::Surroundings surroundings;
+  surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_.seed); };
+  surroundings.tell = tell;
+  if (window != nullptr) {
+    sounds_ = std::make_unique<view::Sounds>();
+    surroundings.set_full_screen = [window](bool is_wanted) { window->set_full_screen(is_wanted); };
+    surroundings.sound = [this](const std::vector<view::Noise>& noises, const view::Settings& settings) { sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume); };
+  }
+  surroundings.save_settings = [this](const view::Settings& settings) {
+    if (const auto trouble = view::write_settings(settings, settings_file_)) tell(*trouble);
+  };
+  application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
+  if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
+  if (options_.shows_figures) application_->show_figures();
+  if (!troubles_.empty()) application_->explain(troubles_);
+  if (const auto wish = view::wish_of(options_)) application_->play(*wish);
+}
+
+void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
+  application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size, {framebuffer, 0, 0, size.width, size.height}, now);
+}
+
+/// Several things may be asked of one instant: keys first, then the frame, then its picture.
+void Process::run_in_window(const view::WindowSize& size) {
+  view::Window window("Rink", size.width, size.height, settings_.is_full_screen);
+  const Opened opened(*this, &window);
+  const double start_s = now_s();
+  bool is_ended = false;
+  while (!application_->wants_to_quit() && !is_ended) {
+    const double begin_s = now_s();
+    for (const view::WindowEvent& event : window.events()) interface_->hear(event), application_->hear(event);
+    const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
+    for (const view::ScriptStep& step : due)
+      for (const view::WindowEvent& event : step.events) interface_->hear(event), application_->hear(event);
+    const view::WindowSize now_size = window.size();
+    if (now_size.width > 0 && now_size.height > 0) {
+      draw(now_size, 0, begin_s, true);
+      for (const view::ScriptStep& step : due)
+        if (!step.picture.empty()) picture(step.picture, 0, now_size);
+    }
+    for (const view::ScriptStep& step : due) is_ended = is_ended || step.is_end;
+    window.show();
+    const double left_s = shortest_frame_s - (now_s() - begin_s);
+    if (left_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+  }
+}
+
+/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a picture of are not drawn.
+void Process::run_offscreen(const view::WindowSize& size) {
+  const view::OffscreenContext context;
+  const Opened opened(*this, nullptr);
+  const view::Target target(size.width, size.height, 0);
+  bool is_ended = false;
+  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && next_step_ < script_.size(); ++frame) {
+    const double now = static_cast<double>(frame) * offscreen_frame_s;
+    const auto due = view::due_steps(script_, next_step_, now);
+    bool is_seen = false;
+    for (const view::ScriptStep& step : due) {
+      for (const view::WindowEvent& event : step.events) interface_->hear(event), application_->hear(event);
+      is_seen = is_seen || !step.picture.empty();
+      is_ended = is_ended || step.is_end;
+    }
+    draw(size, target.framebuffer(), now, is_seen);
+    for (const view::ScriptStep& step : due)
+      if (!step.picture.empty()) picture(step.picture, target.framebuffer(), size);
+  }
+}
+
+void Process::close() {
+  application_.reset();
+  renderer_.reset();
+  interface_.reset();
+  sounds_.reset();
+}
+
+game::ExitStatus play(const view::PlayOptions& options) {
+  const auto size = view::size_of(options.size);
+  if (!size) throw CLI::ValidationError("--size", options.size + " is not a size like 1280x720, from 320x240 to 8192x8192");
+  if (options.is_offscreen && options.script.empty() && options.screenshot.empty()) throw CLI::ValidationError("--offscreen", "nobody could see it or press a key; give a --script or a --screenshot");
+  Process process(options);
+  if (options.is_offscreen) process.run_offscreen(*size);
+  else process.run_in_window(*size);
+  return game::ExitStatus::ok;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
+  view::PlayOptions options;
+  view::add_options(app, options);
+  app.footer(std::string("Example: rink play --bot club\nKeys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes, F3 shows figures, F11 fills the screen.\n") +
+             game::exit_status_help);
+  try {
+    app.parse(count, values);
+    return static_cast<int>(play(options));
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
+  } catch (const view::NoDisplay& error) {
+    tell(error.what());
+    return static_cast<int>(game::ExitStatus::no_display);
+  } catch (const view::GraphicsError& error) {
+    tell(error.what());
+    return static_cast<int>(game::ExitStatus::no_display);
+  } catch (const view::ScriptError& error) {
+    tell(error.what());
+    return static_cast<int>(game::ExitStatus::bad_input);
+  } catch (const std::exception& error) {
+    tell(error.what());
+    return static_cast<int>(game::ExitStatus::failed);
+  }
+}

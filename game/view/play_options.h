@@ -1,0 +1,77 @@
+// The command line of rink play.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "game/view/menu.h"
+#include "game/view/picture_of.h"
+
+namespace rink::view {
+
+struct PlayOptions {
+  bool is_two = false;
+  std::string bot, host, join, watch;
+  std::string camera;
+  std::string size = "1280x720";
+  bool is_full_screen = false, is_muted = false, shows_figures = false;
+  std::string settings_file;
+  std::uint64_t seed = 1;
+  bool is_offscreen = false;
+  std::string script, screenshot;
+  double at_s = 0.0;
+};
+
+inline void add_options(CLI::App& app, PlayOptions& options) {
+  const auto two = app.add_flag("--two", options.is_two, "two players on this keyboard (W A S D and the arrows)");
+  const auto bot = app.add_option("--bot", options.bot, "one player against a bot of this strength")->check(CLI::IsMember({"beginner", "club", "expert"}));
+  const auto host = app.add_option("--host", options.host, "host a match on PORT and play it")->type_name("PORT");
+  const auto join = app.add_option("--join", options.join, "join the match at HOST:PORT")->type_name("HOST:PORT");
+  const auto watch = app.add_option("--watch", options.watch, "watch the match or the crowd at HOST:PORT")->type_name("HOST:PORT");
+  for (CLI::Option* one : {two, bot, host, join, watch})
+    for (CLI::Option* other : {two, bot, host, join, watch})
+      if (one != other) one->excludes(other);
+  app.add_option("--camera", options.camera, "where to see it from; C changes it")->check(CLI::IsMember({"left", "right", "side", "above"}));
+  app.add_option("--size", options.size, "of the window")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  app.add_flag("--full-screen", options.is_full_screen, "fill the screen; F11 changes it");
+  app.add_flag("--mute", options.is_muted, "no sound; M changes it");
+  app.add_flag("--figures", options.shows_figures, "show frames per second and the connection's figures; F3 changes it");
+  app.add_option("--settings", options.settings_file, "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")->type_name("FILE");
+  app.add_option("--seed", options.seed, "of the bots")->capture_default_str();
+  app.add_option("--script", options.script, "press keys and take pictures as FILE says: lines TIME down|up|tap KEY, TIME text WORDS, TIME picture FILE.png, TIME end")->type_name("FILE");
+  const auto screenshot = app.add_option("--screenshot", options.screenshot, "write the picture at --at to FILE.png and end")->type_name("FILE");
+  app.add_option("--at", options.at_s, "seconds after the start")->needs(screenshot)->capture_default_str();
+  app.add_flag("--offscreen", options.is_offscreen, "draw without a window or a display, 60 frames to a second; needs --script or --screenshot");
+}
+
+/// What the command line wishes to play at once; nothing: the menu.
+inline std::optional<MatchWish> wish_of(const PlayOptions& options) {
+  using Kind = MatchWish::Kind;
+  if (options.is_two) return MatchWish{.kind = Kind::two, .address = {}};
+  if (!options.bot.empty()) return MatchWish{.kind = Kind::bot, .strength = options.bot, .address = {}};
+  if (!options.host.empty()) return MatchWish{.kind = Kind::host, .address = options.host};
+  if (!options.join.empty()) return MatchWish{.kind = Kind::join, .address = options.join};
+  if (!options.watch.empty()) return MatchWish{.kind = Kind::watch, .address = options.watch};
+  return std::nullopt;
+}
+
+inline std::optional<Viewpoint> viewpoint_of(const PlayOptions& options) {
+  if (options.camera == "left") return Viewpoint::left_end;
+  if (options.camera == "right") return Viewpoint::right_end;
+  if (options.camera == "side") return Viewpoint::side;
+  if (options.camera == "above") return Viewpoint::above;
+  return std::nullopt;
+}
+
+/// Nothing unless `text` is two whole numbers like 1280x720, from 320x240 to 8192x8192.
+inline std::optional<WindowSize> size_of(const std::string& text) {
+  WindowSize size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2) return std::nullopt;
+  if (size.width < 320 || size.height < 240 || size.width > 8192 || size.height > 8192) return std::nullopt;
+  return size;
+}
+
+}  // namespace rink::view

@@ -1,0 +1,210 @@
+// A frame: the kept stage, marks under the pieces, the pieces from back to front, marks over them.
+#include "game/view/render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "game/view/render/marks.h"
+#include "game/view/render/shaders.h"
+#include "game/view/render/stage_mesh.h"
+#include "game/view/render/textures.h"
+
+namespace rink::view {
+namespace {
+
+constexpr int sample_count = 4;
+constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4};
+/// From here on pieces throw no shadow: in a crowd each is a few pixels.
+constexpr std::size_t shadowed_max = 400;
+
+Eigen::Vector3f rgb(const Colour& colour) { return {colour.red, colour.green, colour.blue}; }
+
+GlName<destroy_texture> textured(const Image& image, bool repeats) { return make_texture(image.width, image.height, image.channels, image.pixels, repeats); }
+
+/// Half the piece's size; half its height as z.
+Vector3 half_size(const Piece& piece) { return {piece.half_x, piece.half_y, 0.5f * piece.height}; }
+
+float rounding(const Piece& piece) { return piece.shape == Piece::Shape::puck ? 0.22f * piece.height : piece.shape == Piece::Shape::bat ? 0.007f : 0.005f; }
+
+/// The window's rectangle that the piece or its mirrored image may cover; a pixel's room around it.
+Eigen::Vector4f covered(const Piece& piece, const Sight& sight, bool is_image, const Canvas& canvas) {
+  const Vector3 half = half_size(piece);
+  Eigen::Vector2f low(1.0f, 1.0f), high(-1.0f, -1.0f);
+  for (int corner = 0; corner < 8; ++corner) {
+    const float up = (corner & 4) != 0 ? 2.0f * half.z() : 0.0f;
+    const Vector3 place(piece.x + ((corner & 1) != 0 ? half.x() : -half.x()), piece.y + ((corner & 2) != 0 ? half.y() : -half.y()), is_image ? -up : up);
+    const Eigen::Vector2f at = sight.project(place);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  const Eigen::Vector2f room(3.0f / static_cast<float>(canvas.width), 3.0f / static_cast<float>(canvas.height));
+  low = (low - room).cwiseMax(-1.0f);
+  high = (high + room).cwiseMin(1.0f);
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+/// Lets nothing be drawn outside the window's rectangle about a box: another score is a small part of the stage.
+void confine(const Eigen::AlignedBox3f& box, const Sight& sight, int width, int height) {
+  Eigen::AlignedBox2f window;
+  for (int corner = 0; corner < 8; ++corner) window.extend(sight.project(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner))));
+  const Eigen::Array2f pixels(static_cast<float>(width), static_cast<float>(height));
+  const Eigen::Array2i low = ((window.min().array() * 0.5f + 0.5f) * pixels).floor().cast<int>() - 2, high = ((window.max().array() * 0.5f + 0.5f) * pixels).ceil().cast<int>() + 2;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(low.x(), low.y(), std::max(0, high.x() - low.x()), std::max(0, high.y() - low.y()));
+}
+
+void add_piece(const Piece& piece, const Sight& sight, bool is_image, const Canvas& canvas, std::vector<float>& rows) {
+  const Eigen::Vector4f window = covered(piece, sight, is_image, canvas);
+  if (window[0] >= window[2] || window[1] >= window[3]) return;
+  const Vector3 half = half_size(piece);
+  rows.insert(rows.end(), {window[0], window[1], window[2], window[3], piece.x, piece.y, static_cast<float>(piece.shape), is_image ? 1.0f : 0.0f, half.x(), half.y(), half.z(), rounding(piece),
+                           piece.colour.red, piece.colour.green, piece.colour.blue, piece.accent.red, piece.accent.green, piece.accent.blue});
+}
+
+}  // namespace
+
+Renderer::Renderer()
+    : stage_program_("stage", light_source, stage_vertex, stage_fragment),
+      mark_program_("marks", light_source, mark_vertex, mark_fragment),
+      piece_program_("pieces", light_source, piece_vertex, piece_fragment),
+      plan_program_("plan", "", plan_vertex, plan_fragment),
+      mesh_(stage_row, false),
+      marks_(mark_row, true),
+      pieces_(piece_row, true),
+      plan_(plan_row, true),
+      wood_(textured(wood_image(512), true)),
+      digits_(textured(digits_image(), false)) {}
+
+void Renderer::prepare(const Program& program, const Table& table, const Sight& sight, const Canvas& canvas) const {
+  program.use();
+  program.set("field", Eigen::Vector3f(table.length, table.width, table.goal_width));
+  program.set("left_colour", rgb(table.left));
+  program.set("right_colour", rgb(table.right));
+  program.set("view", sight.matrix());
+  program.set("eye", sight.eye());
+  program.set("origin", Eigen::Vector2f(static_cast<float>(canvas.x), static_cast<float>(canvas.y)));
+  program.set("stage_depth", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, kept_.depth());
+}
+
+void Renderer::draw(const Picture& picture, const Canvas& canvas) {
+  const Sight sight(picture.camera, static_cast<float>(canvas.width) / static_cast<float>(canvas.height));
+  const Stage wanted{picture.table, picture.camera.is_plan ? Scoreboard{.is_there = false} : picture.board, picture.camera, canvas.width, canvas.height};
+  const bool is_new = stage_ != wanted;
+  if (is_new) set_stage(wanted, sight);
+  is_stage_moving_ = is_new;
+
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, canvas.width, canvas.height, canvas.x, canvas.y, canvas.x + canvas.width, canvas.y + canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
+  glViewport(canvas.x, canvas.y, canvas.width, canvas.height);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  draw_marks(picture, sight, canvas, false);
+  if (picture.camera.is_plan) draw_plan(picture, sight, canvas);
+  else draw_pieces(picture, sight, canvas);
+  draw_marks(picture, sight, canvas, true);
+  glDisable(GL_BLEND);
+  glBindVertexArray(0);
+}
+
+/// With samples where it will be kept; without, and at once, while the camera moves.
+void Renderer::set_stage(const Stage& stage, const Sight& sight) {
+  if (kept_.width() != stage.width || kept_.height() != stage.height) {
+    kept_ = Target(stage.width, stage.height, 0);
+    samples_ = Target(stage.width, stage.height, sample_count);
+  }
+  if (!stage_ || stage_->table != stage.table || stage_->board != stage.board || stage_->camera.is_plan != stage.camera.is_plan)
+    mesh_.fill(stage.camera.is_plan ? plan_mesh(stage.table) : stage_mesh(stage.table, stage.board));
+  const bool is_score_alone = stage_ && Stage{stage_->table, stage.board, stage_->camera, stage_->width, stage_->height} == stage && stage_->board.is_left_first == stage.board.is_left_first;
+  if (is_score_alone) confine(board_box(stage.table, stage.board), sight, stage.width, stage.height);
+  draw_stage(stage, sight, kept_.framebuffer());
+  stage_ = stage;
+  if (is_stage_moving_) return glDisable(GL_SCISSOR_TEST);
+  draw_stage(stage, sight, samples_.framebuffer());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.framebuffer());
+  glBlitFramebuffer(0, 0, stage.width, stage.height, 0, 0, stage.width, stage.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::draw_stage(const Stage& stage, const Sight& sight, GLuint framebuffer) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, stage.width, stage.height);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glClearColor(0.035f, 0.04f, 0.055f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  prepare(stage_program_, stage.table, sight, {});
+  stage_program_.set("is_plan", stage.camera.is_plan ? 1 : 0);
+  stage_program_.set("wood", 0);
+  stage_program_.set("digits", 1);
+  glBindTexture(GL_TEXTURE_2D, wood_.name());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, digits_.name());
+  glActiveTexture(GL_TEXTURE0);
+  mesh_.bind();
+  glDrawArrays(GL_TRIANGLES, 0, mesh_.count());
+  glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::draw_rows(FloatStream& stream) {
+  if (rows_.empty()) return;
+  stream.fill(rows_);
+  stream.bind();
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, stream.count());
+}
+
+void Renderer::draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas, bool is_over) {
+  rows_.clear();
+  if (is_over) add_overlay(picture, rows_);
+  else add_marks(picture, picture.pieces.size() <= shadowed_max, rows_);
+  if (rows_.empty()) return;
+  prepare(mark_program_, picture.table, sight, canvas);
+  mark_program_.set("is_plan", picture.camera.is_plan ? 1 : 0);
+  draw_rows(marks_);
+}
+
+/// From back to front; images in the table before all, for they lie under everything.
+void Renderer::draw_pieces(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+  order_.clear();
+  for (const Piece& piece : picture.pieces) order_.push_back(&piece);
+  const auto depth = [&](const Piece* piece) { return (Vector3(piece->x, piece->y, 0.0f) - sight.eye()).dot(sight.forward()); };
+  std::ranges::stable_sort(order_, std::greater<>{}, depth);
+  rows_.clear();
+  for (const bool is_image : {true, false})
+    for (const Piece* piece : order_) add_piece(*piece, sight, is_image, canvas, rows_);
+  if (rows_.empty()) return;
+  prepare(piece_program_, picture.table, sight, canvas);
+  piece_program_.set("right", sight.right());
+  piece_program_.set("up", sight.up());
+  piece_program_.set("forward", sight.forward());
+  piece_program_.set("pixel", 2.0f * sight.up().norm() / static_cast<float>(canvas.height));
+  draw_rows(pieces_);
+}
+
+void Renderer::draw_plan(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+  rows_.clear();
+  rows_.reserve(picture.pieces.size() * 12);
+  const float reach_x = sight.right().x(), reach_y = sight.up().y();
+  for (const Piece& piece : picture.pieces) {
+    if (std::abs(piece.x - sight.eye().x()) > reach_x + piece.half_x || std::abs(piece.y - sight.eye().y()) > reach_y + piece.half_y) continue;
+    rows_.insert(rows_.end(), {piece.x, piece.y, piece.half_x, piece.half_y, piece.colour.red, piece.colour.green, piece.colour.blue, piece.shape == Piece::Shape::bat ? 1.0f : 0.0f,
+                               piece.accent.red, piece.accent.green, piece.accent.blue, 0.0f});
+  }
+  if (rows_.empty()) return;
+  plan_program_.use();
+  plan_program_.set("view", sight.matrix());
+  plan_program_.set("pixel", 2.0f * reach_y / static_cast<float>(canvas.height));
+  draw_rows(plan_);
+}
+
+}  // namespace rink::view

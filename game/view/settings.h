@@ -1,0 +1,62 @@
+// What a player wants every time: keys, sound, size of the window. A small TOML file that people may edit.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "game/model/key.h"
+
+namespace rink::view {
+
+/// A key of the keyboard by its place, as GLFW numbers it; 0 is none.
+using KeyCode = int;
+
+/// "a", "up", "left shift", "keypad 4"; nothing for a key without a name.
+std::optional<std::string> key_code_name(KeyCode code);
+/// Case does not matter. Nothing if there is no such key.
+std::optional<KeyCode> key_code_from_name(std::string_view name);
+
+/// Keys of one player, in the order of game::all_keys: left, right, up, down.
+using KeySet = std::array<KeyCode, 4>;
+
+struct Settings {
+  std::array<KeySet, 2> keys;  ///< of the left and the right player
+  bool is_muted = false;
+  double volume = 0.7;         ///< 0 to 1
+  bool is_full_screen = false;
+  Settings();
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// The default keys: WASD for the left player, the arrows for the right.
+std::array<KeySet, 2> default_keys();
+
+/// Whose key `code` is: the player and what it means.
+struct Bound {
+  std::uint32_t hand;
+  game::Key key;
+};
+std::optional<Bound> bound(const Settings& settings, KeyCode code);
+
+/// Settings and what was wrong with the file, one message a line: what could not be read is as by default.
+struct ReadSettings {
+  Settings settings;
+  std::vector<std::string> troubles;
+};
+
+/// `text` is the file's content, `file` its name in messages, which say line, key, value and what was expected.
+ReadSettings parse_settings(std::string_view text, const std::string& file);
+std::string settings_text(const Settings& settings);
+
+/// No file is no trouble.
+ReadSettings read_settings(const std::string& file);
+/// Makes the folder if need be. The trouble, or nothing.
+std::optional<std::string> write_settings(const Settings& settings, const std::string& file);
+
+/// $XDG_CONFIG_HOME/rink/play.toml, or below ~/.config; empty if there is neither.
+std::string settings_file();
+
+}  // namespace rink::view

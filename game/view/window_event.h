@@ -1,0 +1,24 @@
+// What a person does to a window, as plain data: the same from a real window and from a script.
+#pragma once
+
+#include "game/view/settings.h"
+
+namespace rink::view {
+
+struct WindowEvent {
+  enum class Kind : unsigned char { key, text, mouse_move, mouse_button, scroll, close, focus_lost };
+  Kind kind = Kind::key;
+  KeyCode key = 0;
+  bool is_down = false;          ///< of key and mouse_button
+  unsigned character = 0;        ///< of text: Unicode
+  double x = 0.0, y = 0.0;       ///< of mouse_move: pixels from the upper left; of scroll: y
+};
+
+/// How large a window is: pixels, and pixels per point of the desktop's scale.
+struct WindowSize {
+  int width = 1280, height = 720;
+  double scale = 1.0;
+  friend bool operator==(const WindowSize&, const WindowSize&) = default;
+};
+
+}  // namespace rink::view
