@@ -11,6 +11,7 @@
 
 #include "game/control/key_log.h"
 #include "game/model/scene_file.h"
+#include "game/net/address.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
@@ -114,17 +115,6 @@ loadgen::LivePlayers players_of(const Options& options) {
   return {.kind = options.players, .rules = game::rules_of(game::load_scene(options.scene), 0), .seed = options.seed};
 }
 
-/// "127.0.0.1:4711" or "[::1]:4711" in two; throws std::invalid_argument.
-std::pair<std::string, std::uint16_t> address_and_port(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  const bool has_port = colon != std::string::npos && colon + 1 < text.size() && text.find_first_not_of("0123456789", colon + 1) == std::string::npos && text.size() - colon <= 6;
-  const unsigned long port = has_port ? std::stoul(text.substr(colon + 1)) : 0;
-  if (port == 0 || port > 65535 || colon == 0) throw std::invalid_argument("--connect: '" + text + "' is not ADDRESS:PORT with a port from 1 to 65535");
-  std::string address = text.substr(0, colon);
-  if (address.size() > 2 && address.front() == '[' && address.back() == ']') address = address.substr(1, address.size() - 2);
-  return {address, static_cast<std::uint16_t>(port)};
-}
-
 std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) {
   const loadgen::Measurements& measured = crowd.measurements();
   if (is_interrupted) return "interrupted";
@@ -147,7 +137,7 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
 }
 
 game::ExitStatus play(const Options& options) {
-  const auto [address, port] = address_and_port(options.connect);
+  const auto [address, port] = game::address_and_port("--connect", options.connect);
   game::require_writable("--report", options.report);
   game::require_writable("--evidence", options.evidence);
   const rti::Fom fom = game::load_rink_fom(game::fom_file());

@@ -39,6 +39,21 @@ Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
   for (const InputEvent& event : scene.keys) submit(event);
 }
 
+Game::Game(const Game& other)
+    : simulator_(other.simulator_->copy()),
+      world_(nullptr),
+      rules_(other.rules_),
+      entities_(other.entities_),
+      seats_(other.seats_),
+      inputs_(other.inputs_),
+      submitted_(other.submitted_),
+      face_offs_(other.face_offs_),
+      score_(other.score_),
+      is_over_(other.is_over_) {
+  assert(simulator_ != nullptr);
+  world_ = simulator_->exact_world();
+}
+
 void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity) {
   Seat& seat = seats_[player];
   physics::BatSpec body = seat.bat.body;

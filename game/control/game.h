@@ -45,6 +45,11 @@ class Game {
   /// Every bat of the scene is there from the start, and the scene's scripted keys are submitted. `engine` moves the bodies; there must be no objection to it (asserted).
   explicit Game(const Scene& scene, const physics::SimulatorChoice& engine = {});
 
+  /// Another game that goes on from here with the same bits; its engine must be the exact one (asserted).
+  Game copy() const { return Game(*this); }
+  Game(Game&&) = default;
+  Game& operator=(Game&&) = default;
+
   /// Queues `event` for its own instant, which must be finite and not before now(); its player must have a bat in the scene (both asserted). Keys for a bat that is not there
   /// at that instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if that is taken, at the nearest free place, and tries again
   /// every `placement_retry` seconds when there is none.
@@ -95,6 +100,8 @@ class Game {
   std::uint64_t hash() const;
 
  private:
+  Game(const Game& other);
+
   struct Seat {
     Bat bat;
     BatController controller;

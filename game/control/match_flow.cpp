@@ -1,9 +1,25 @@
 // Each call is one arrow between two phases.
 #include "game/control/match_flow.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace rink::game {
+
+double simulated_at(const MatchState& state, double real_s) {
+  if (state.phase == MatchPhase::playing) return state.clock_simulated_s + std::max(0.0, real_s - state.clock_real_s);
+  if (state.phase == MatchPhase::countdown) return state.clock_simulated_s + std::max(0.0, real_s - state.until_s);
+  return state.clock_simulated_s;
+}
+
+std::optional<std::string> match_objection(const Scene& scene) {
+  const std::vector<Bat>& bats = scene.bodies.bats;
+  if (!scene.populations.empty()) return "it has populations, but a match has only bodies that are placed one by one";
+  if (bats.size() != 2 || bats[0].team != Team::left || bats[1].team != Team::right) return "a match has two bats, first that of the team left, then that of the team right";
+  if (!scene.rules.goals_to_win) return "[match] goals_to_win is missing, so nobody could win";
+  if (scene.world.field.goal_width == 0.0 || scene.bodies.pucks.empty()) return "a match needs goals and a puck";
+  return std::nullopt;
+}
 
 void MatchFlow::begin_match(double now_s) {
   state_ = {.number = state_.number + 1, .winner = std::nullopt};
@@ -15,17 +31,25 @@ void MatchFlow::count_down(double now_s) {
   state_.until_s = now_s + times_.countdown_s;
 }
 
+/// Simulated time stands from now on.
+void MatchFlow::stop(double now_s) {
+  state_.clock_simulated_s = simulated_at(state_, now_s);
+  state_.clock_real_s = now_s;
+}
+
 void MatchFlow::advance(double now_s) {
   if (now_s < state_.until_s) return;
   if (state_.phase == MatchPhase::countdown) {
+    state_.clock_real_s = state_.until_s;
     state_.phase = MatchPhase::playing;
   } else if (state_.phase == MatchPhase::away) {
-    win(is_here_[0] ? Team::left : Team::right);
+    win(is_here_[0] ? Team::left : Team::right, now_s);
   }
 }
 
 void MatchFlow::enter(std::uint32_t player, double now_s) {
   assert(player < is_here_.size());
+  advance(now_s);
   if (is_here_[player]) return;
   is_here_[player] = true;
   if (!are_all_here()) return;
@@ -36,32 +60,41 @@ void MatchFlow::enter(std::uint32_t player, double now_s) {
 
 void MatchFlow::leave(std::uint32_t player, double now_s) {
   assert(player < is_here_.size());
+  advance(now_s);
   is_here_[player] = false;
   state_.wants_rematch[player] = false;
+  stop(now_s);
   const bool is_anybody_here = is_here_[0] || is_here_[1];
   if (!is_anybody_here || state_.phase == MatchPhase::over) {
     state_.phase = MatchPhase::waiting;  // who stays after the end waits for somebody new
     state_.winner.reset();
     state_.wants_rematch = {};
-  } else if (state_.phase == MatchPhase::countdown || state_.phase == MatchPhase::playing || state_.phase == MatchPhase::paused) {
+  } else if (state_.phase != MatchPhase::waiting) {
     state_.phase = MatchPhase::away;
     state_.until_s = now_s + times_.patience_s;
   }
 }
 
 void MatchFlow::pause(bool is_wanted, double now_s) {
-  if (is_wanted && (state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown)) state_.phase = MatchPhase::paused;
-  else if (!is_wanted && state_.phase == MatchPhase::paused) count_down(now_s);
+  advance(now_s);
+  if (is_wanted && (state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown)) {
+    stop(now_s);
+    state_.phase = MatchPhase::paused;
+  } else if (!is_wanted && state_.phase == MatchPhase::paused) {
+    count_down(now_s);
+  }
 }
 
 void MatchFlow::ask_rematch(std::uint32_t player, double now_s) {
   assert(player < is_here_.size());
+  advance(now_s);
   if (state_.phase != MatchPhase::over || !is_here_[player]) return;
   state_.wants_rematch[player] = true;
   if (state_.wants_rematch[0] && state_.wants_rematch[1]) begin_match(now_s);
 }
 
-void MatchFlow::win(Team winner) {
+void MatchFlow::win(Team winner, double now_s) {
+  stop(now_s);
   state_.phase = MatchPhase::over;
   state_.winner = winner;
 }

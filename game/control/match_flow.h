@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "game/control/game.h"
 
@@ -26,10 +27,17 @@ struct MatchState {
   std::uint32_t number = 0;             ///< of the match, from 1; 0 before the first
   MatchPhase phase = MatchPhase::waiting;
   double until_s = 0.0;                 ///< when countdown or patience with who is away end [s, real time]
+  double clock_real_s = 0.0, clock_simulated_s = 0.0;  ///< it was this simulated instant at this real time; while playing, both go on from there [s]
   std::array<bool, 2> wants_rematch{};  ///< by player
   std::optional<Team> winner;           ///< once it is over
   friend bool operator==(const MatchState&, const MatchState&) = default;
 };
+
+/// The simulated instant [s] at real time `real_s`, as far as `state` tells; the end of a countdown is foreseen.
+double simulated_at(const MatchState& state, double real_s);
+
+/// Why `scene` is not one for a match of two with a winner; nothing if it is.
+std::optional<std::string> match_objection(const Scene& scene);
 
 /// How long things take [s].
 struct FlowTimes {
@@ -52,7 +60,7 @@ class MatchFlow {
   /// Counts once the match is over. When both have asked the next one begins.
   void ask_rematch(std::uint32_t player, double now_s);
   /// The game has come to `winner`'s last goal.
-  void win(Team winner);
+  void win(Team winner, double now_s);
 
   const MatchState& state() const { return state_; }
   /// Whether simulated time runs.
@@ -62,6 +70,7 @@ class MatchFlow {
  private:
   bool are_all_here() const { return is_here_[0] && is_here_[1]; }
   void begin_match(double now_s);
+  void stop(double now_s);
   void count_down(double now_s);
 
   FlowTimes times_;

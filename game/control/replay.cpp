@@ -1,6 +1,7 @@
 // The same scene, and the same keys at the same instants.
 #include "game/control/replay.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -35,6 +36,40 @@ std::uint64_t replay(const KeyLog& log, const Scene& scene) {
   for (const InputEvent& event : log.events) game.submit(event);
   game.advance(*log.until);
   return game.hash();
+}
+
+KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text, std::vector<InputEvent> events) {
+  KeyLog log = key_log_for(scene);
+  log.scene_text = std::move(scene_text);
+  log.until = game.now();
+  log.hash = game.hash();
+  log.events = std::move(events);
+  std::erase_if(log.events, [&](const InputEvent& event) { return event.time > game.now(); });
+  std::stable_sort(log.events.begin(), log.events.end(), [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
+  return log;
+}
+
+Replay::Replay(KeyLog log, Scene scene) : log_(std::move(log)), scene_(std::move(scene)), game_(scene_) {
+  assert(log_.until && log_.hash);
+  for (const InputEvent& event : log_.events) game_.submit(event);
+  kept_.push_back(game_.copy());
+}
+
+void Replay::seek(double instant) {
+  instant = std::clamp(instant, 0.0, end());
+  const auto before = std::min(kept_.size() - 1, static_cast<std::size_t>(instant / kept_every));
+  if (instant < game_.now() || kept_[before].now() > game_.now()) game_ = kept_[before].copy();
+  play(instant);
+}
+
+/// Where a game stops on the way changes nothing in it.
+void Replay::play(double until) {
+  for (double stop = kept_every * static_cast<double>(kept_.size()); stop <= until; stop += kept_every) {
+    game_.advance(stop);
+    kept_.push_back(game_.copy());
+  }
+  game_.advance(until);
+  if (until == end()) is_as_recorded_ = game_.hash() == *log_.hash;
 }
 
 }  // namespace rink::game

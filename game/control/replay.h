@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "game/control/game.h"
 #include "game/control/key_log.h"
 
 namespace rink::game {
@@ -17,5 +20,37 @@ Scene recorded_scene(const KeyLog& log, const std::string& file);
 
 /// The hash of the game at the end of a complete log (asserted), played in `scene`.
 std::uint64_t replay(const KeyLog& log, const Scene& scene);
+
+/// The complete log of `game`, played in `scene` with `events`, which may hold some that are still to come; these are left out.
+KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text, std::vector<InputEvent> events);
+
+/// A recorded game that can be looked at in any order. Going back costs no more than going forward: what was played is kept every few seconds.
+class Replay {
+ public:
+  static constexpr double kept_every = 5.0;  ///< simulated seconds
+
+  /// `log` must be complete (asserted), and `scene` its recorded_scene().
+  Replay(KeyLog log, Scene scene);
+
+  double end() const { return *log_.until; }
+  double now() const { return game_.now(); }
+  const Game& game() const { return game_; }
+  const Scene& scene() const { return scene_; }
+  const KeyLog& log() const { return log_; }
+
+  /// Goes to `instant` [s], or to the nearest there is. The game is the same, bit for bit, however one gets there.
+  void seek(double instant);
+  /// Whether the game was at its end in the state that was recorded; nothing before it was there.
+  std::optional<bool> is_as_recorded() const { return is_as_recorded_; }
+
+ private:
+  void play(double until);
+
+  KeyLog log_;
+  Scene scene_;
+  Game game_;
+  std::vector<Game> kept_;  ///< the game at 0, kept_every, 2 kept_every and so on, as far as it was played
+  std::optional<bool> is_as_recorded_;
+};
 
 }  // namespace rink::game

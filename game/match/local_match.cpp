@@ -5,10 +5,12 @@
 #include <cassert>
 #include <utility>
 
+#include "game/control/replay.h"
+
 namespace rink::game {
 
 LocalMatch::LocalMatch(const Scene& scene, const LocalMatchSettings& settings) : scene_(scene), settings_(settings), flow_(settings.times), sight_(sight_of(scene)) {
-  assert(scene.bodies.bats.size() == 2 && scene.rules.goals_to_win && settings.players.size() == 2);
+  assert(!match_objection(scene) && settings.players.size() == 2);
   for (std::uint32_t player = 0; player < 2; ++player)
     if (settings_.players[player] == Playing::hand) hands_.push_back(player);
   if (hands_.size() == 1) sight_.own_team = scene.bodies.bats[hands_.front()].team;
@@ -21,6 +23,8 @@ void LocalMatch::begin(double now_s) {
     flow_.enter(0, now_s);
     flow_.enter(1, now_s);
   }
+  finish();
+  is_finished_ = false;
   match_number_ = flow_.state().number;
   constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
   playing_ = std::make_unique<Playing>(scene_, settings_.players, settings_.seed + match_number_ - 1, forever);
@@ -33,15 +37,21 @@ void LocalMatch::advance(double now_s) {
   flow_.advance(now_s);
   if (flow_.state().number != match_number_ || match_number_ == 0) begin(now_s);
   if (was_running && flow_.runs()) play(elapsed);
+  if (flow_.state().phase == MatchPhase::over) finish(), pressed_.clear();
   for (const PressedKey& pressed : std::exchange(pressed_, {})) playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
   show();
+}
+
+void LocalMatch::finish() {
+  if (!is_finished_ && playing_->game().now() > 0.0) finished_.push_back(log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys()));
+  is_finished_ = true;
 }
 
 void LocalMatch::play(double duration_s) {
   playing_->advance(playing_->game().now() + duration_s);
   if (!playing_->game().is_over()) return;
   const Score& score = playing_->game().score();
-  flow_.win(score.left > score.right ? Team::left : Team::right);
+  flow_.win(score.left > score.right ? Team::left : Team::right, now_s_);
 }
 
 void LocalMatch::press(std::uint32_t hand, Key key, bool is_down) {
@@ -59,18 +69,7 @@ void LocalMatch::rematch() {
 
 void LocalMatch::show() {
   const Game& game = playing_->game();
-  sight_.time = game.now();
-  sight_.things.clear();
-  for (const Entity& entity : game.entities())
-    sight_.things.push_back({.id = entity.id.index,
-                             .kind = entity.kind,
-                             .team = entity.team,
-                             .position = game.position(entity.id),
-                             .velocity = game.velocity(entity.id),
-                             .half_extent = entity.half_extent});
-  const bool is_played = flow_.state().phase != MatchPhase::over;
-  std::erase_if(sight_.things, [&](const Thing& thing) { return is_played && thing.kind == physics::BodyKind::puck && !game.simulator().is_in_play(physics::BodyId{thing.id}); });
-  sight_.score = game.score();
+  show_game(game, sight_);
   sight_.phase = flow_.state().phase;
   sight_.remaining_s = std::max(0.0, flow_.state().until_s - now_s_);
   sight_.winner = flow_.state().winner;

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "game/control/key_log.h"
 #include "game/control/match_flow.h"
 #include "game/control/playing.h"
 #include "game/match/match_source.h"
@@ -18,6 +20,7 @@ struct LocalMatchSettings {
   std::vector<std::string> players{"hand", "hand"};  ///< of the left and the right bat: Playing::hand or a player's kind
   std::string left_name = "Red", right_name = "Blue";
   FlowTimes times{};
+  std::string scene_text{};  ///< the scene's file, so that records need no other
 };
 
 /// Real time becomes simulated time as it comes, but for pauses, countdowns and frames that took longer than `frame_max_s`.
@@ -35,6 +38,10 @@ class LocalMatch final : public MatchSource {
   void pause(bool is_wanted) override;
   void rematch() override;
 
+  /// The match ends here, so that there is a record of it.
+  void finish();
+  /// Records of the matches that came to their end, or were given up, since they were last taken.
+  std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
   /// What was played since the last face-off that opened a match.
   const Playing& playing() const { return *playing_; }
 
@@ -54,6 +61,8 @@ class LocalMatch final : public MatchSource {
   std::vector<std::uint32_t> hands_;  ///< bats that hands play
   std::unique_ptr<Playing> playing_;
   std::vector<PressedKey> pressed_;
+  std::vector<KeyLog> finished_;
+  bool is_finished_ = true;  ///< the present match is recorded
   std::uint32_t match_number_ = 0;
   double now_s_ = -1.0;
   MatchSight sight_;

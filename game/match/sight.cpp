@@ -17,6 +17,16 @@ MatchSight sight_of(const Scene& scene) {
   return sight;
 }
 
+void show_game(const Game& game, MatchSight& sight) {
+  sight.time = game.now();
+  sight.score = game.score();
+  sight.things.clear();
+  for (const Entity& entity : game.entities()) {
+    if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) && !game.is_over()) continue;
+    sight.things.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.position(entity.id), .velocity = game.velocity(entity.id), .half_extent = entity.half_extent});
+  }
+}
+
 void GoalWatch::look(MatchSight& sight, double now_s, double face_off_delay) {
   const bool is_anew = sight.score.left < score_.left || sight.score.right < score_.right;
   if (sight.score != score_ && !is_anew) {

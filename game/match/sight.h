@@ -8,6 +8,9 @@ namespace rink::game {
 /// A sight of `scene` before anything has moved: its bats, then its pucks, then its posts, numbered in this order.
 MatchSight sight_of(const Scene& scene);
 
+/// Shows time, score and bodies of `game`; of pucks, those in play, and once the match is over all.
+void show_game(const Game& game, MatchSight& sight);
+
 /// Follows who scored last and how long ago, until the puck is in play again.
 class GoalWatch {
  public:

@@ -12,12 +12,16 @@ namespace rink::game {
 
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
     : model_(model), settings_(settings), mirror_(model), ambassador_(fom, *this) {
-  ambassador_.join(settings.federation, settings.name, player_federate_type);
+  ambassador_.join(settings.federation, settings.name, settings.only_watches ? watcher_federate_type : player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.seat);
   ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent, model_.drag});
   ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
+  if (!settings.plays_match) return;
+  for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.publish_interaction_class(interaction);
+  ambassador_.subscribe_interaction_class(model_.pong);
+  ambassador_.subscribe_object_class_attributes(model_.match, {model_.match_state, model_.match_scene});
 }
 
 void Client::join_refused(rti::Refusal refusal, std::string_view why) {
@@ -31,7 +35,11 @@ void Client::connection_lost(std::string_view why) {
   trouble_ = why;
 }
 
-void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle, const rti::Stamp&) {
+void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle, const rti::Stamp& stamp) {
+  if (interaction == model_.pong) {
+    pong_ = Pong{stamp.tag, stamp.time};
+    return;
+  }
   SeatOffer offer;
   if (interaction != model_.seat || state_ != State::joining || !decode(parameters, offer)) return;
   if (offer.bat == SeatOffer::no_bat) {
@@ -46,11 +54,13 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
 
 /// Seat and field come by separate messages, in either order.
 void Client::subscribe_once_seated() {
+  if (settings_.only_watches && mirror_.field()) seat_ = SeatOffer{};
   if (state_ != State::joining || !seat_ || !mirror_.field()) return;
   state_ = State::seated;
   view_ = ambassador_.create_region();
   look_around(seat_->position);
   ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory}, view_);
+  if (settings_.only_watches) state_ = State::playing;
 }
 
 void Client::look_around(const Position& centre) {
@@ -72,15 +82,24 @@ void Client::follow_bat(double instant) {
   look_around(there);
 }
 
-void Client::press(Key key) { send_key(model_.key_down, key); }
-void Client::release(Key key) { send_key(model_.key_up, key); }
+void Client::press(Key key, double instant) { send_key(model_.key_down, key, instant); }
+void Client::release(Key key, double instant) { send_key(model_.key_up, key, instant); }
 
-void Client::send_key(rti::InteractionClassHandle interaction, Key key) {
-  assert(state_ == State::playing);
+void Client::send_key(rti::InteractionClassHandle interaction, Key key, double instant) {
+  assert(state_ == State::playing && !settings_.only_watches);
   const KeyCharacter character{static_cast<std::uint8_t>(key_character(key))};
-  ambassador_.send_interaction(interaction, encode(encoded_, character), {});
+  ambassador_.send_interaction(interaction, encode(encoded_, character), {.time = instant, .tag = 0});
   ++keys_sent_;
 }
+
+void Client::pause(bool is_wanted) {
+  const PauseWish wish{static_cast<std::uint8_t>(is_wanted)};
+  ambassador_.send_interaction(model_.pause, encode(encoded_, wish), {});
+}
+
+void Client::ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
+
+void Client::ping(std::uint64_t number) { ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number}); }
 
 void Client::end_turn() { ambassador_.send_interaction(model_.update, {}, {}); }
 
@@ -98,8 +117,8 @@ void Client::reach_barrier_once_ready() {
   if (is_called_) {
     ambassador_.synchronization_point_achieved(start_barrier);
     is_called_ = false;
-  } else if (own->stamp.time > 0.0) {
-    state_ = State::playing;  // joined late: the game runs already
+  } else if (own->stamp.time > 0.0 || mirror_.has_match()) {
+    state_ = State::playing;  // joined late, and the game runs already; or a match waits for its players
   }
 }
 

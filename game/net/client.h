@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "game/model/key.h"
@@ -21,6 +22,8 @@ struct ClientSettings {
   /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when the bat is half of that from its middle: the other half
   /// covers what the bat moves until the RTI has heard of it.
   double view_margin = 0.0;
+  bool plays_match = false;  ///< a hosted one: hears of it, may stop it and ask for another
+  bool only_watches = false; ///< takes no bat; sees the whole field
 };
 
 /// What a watched client was told since it was last asked, in order of arrival.
@@ -47,10 +50,16 @@ class Client : public rti::FederateAmbassador {
   Client& operator=(const Client&) = delete;
 
   rti::Ambassador& ambassador() { return ambassador_; }
+  const rti::Ambassador& ambassador() const { return ambassador_; }
 
-  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing.
-  void press(Key key);
-  void release(Key key);
+  /// Sends KeyDown or KeyUp; counts it in `keys_sent`. Only while playing. In a hosted match the key is to take effect at the simulated `instant` [s] if that is still
+  /// to come when it arrives there; else at its arrival, as in every other game.
+  void press(Key key, double instant = 0.0);
+  void release(Key key, double instant = 0.0);
+  /// Of a hosted match: stops it or has it go on, asks for another, asks the server for its time.
+  void pause(bool is_wanted);
+  void ask_rematch();
+  void ping(std::uint64_t number);
   /// Synchronous mode: says that this player's turn is done.
   void end_turn();
   /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move (by half the margin).
@@ -72,6 +81,14 @@ class Client : public rti::FederateAmbassador {
   const im::Region& view() const { return view_bounds_; }
   /// The own bat as last heard of; null before the first update.
   const MirroredEntity* bat() const { return mirror_.find(bat_); }
+  /// The bat that was given to this player, once it was.
+  std::optional<std::uint32_t> bat_number() const { return seat_ ? std::optional(seat_->bat) : std::nullopt; }
+  /// The server's answer to ping(): which, and when it arrived on the server's real clock [s]; given once.
+  struct Pong {
+    std::uint64_t number = 0;
+    double server_s = 0.0;
+  };
+  std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
   std::uint32_t keys_sent() const { return keys_sent_; }
   const Mirror& mirror() const { return mirror_; }
   /// All that it keeps: itself, tables and buffers [bytes].
@@ -90,7 +107,7 @@ class Client : public rti::FederateAmbassador {
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
   void set_scope(rti::ObjectHandle object, bool is_in);
-  void send_key(rti::InteractionClassHandle interaction, Key key);
+  void send_key(rti::InteractionClassHandle interaction, Key key, double instant);
   void look_around(const Position& centre);
   void subscribe_once_seated();
   void reach_barrier_once_ready();
@@ -102,6 +119,7 @@ class Client : public rti::FederateAmbassador {
   rti::ObjectHandle bat_;
   rti::RegionHandle view_;
   std::optional<SeatOffer> seat_;
+  std::optional<Pong> pong_;
   Position centre_;
   im::Region view_bounds_;
   std::vector<std::byte> encoded_;

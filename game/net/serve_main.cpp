@@ -11,6 +11,8 @@
 #include <string>
 
 #include "game/control/key_log.h"
+#include "game/control/match_records.h"
+#include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/evidence.h"
@@ -53,9 +55,11 @@ class ServerProcess {
  public:
   ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
       : options_(options),
-        serving_(fom, scene, {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay)},
+        serving_(fom, scene,
+                 {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay), .hosting = hosting_of(options)},
                  federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
-        server_(serving_.server()) {
+        server_(serving_.server()),
+        records_(options.record) {
     serving_.host().add(tcp_);
     if (!options.evidence.empty())
       serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
@@ -77,6 +81,7 @@ class ServerProcess {
   rti::TransportCounters totals() const { return tcp_.totals(); }
 
  private:
+  static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
   static rti::FederationSettings federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void exchange_until(double until_s);
@@ -87,9 +92,15 @@ class ServerProcess {
   rti::TcpTransport tcp_;
   game::Serving serving_;
   game::Server& server_;
+  game::MatchRecords records_;
   double start_s_ = 0.0;
   Costs costs_;
 };
+
+std::optional<game::Hosting> ServerProcess::hosting_of(const game::ServeOptions& options) {
+  if (options.hosted.empty()) return std::nullopt;
+  return game::Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s}, .scene_text = game::scene_text(options.scene)};
+}
 
 rti::FederationSettings ServerProcess::federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
   rti::FederationSettings settings = game::federation_settings(scene, options.scheme, options.cell_size);
@@ -129,10 +140,12 @@ bool ServerProcess::start() {
 }
 
 void ServerProcess::tick(std::uint64_t number) {
-  const double period_s = 1.0 / options_.rate_hz, simulated_s = static_cast<double>(number) * period_s;
-  const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + simulated_s;
+  const double period_s = 1.0 / options_.rate_hz, elapsed_s = static_cast<double>(number) * period_s;
+  const double simulated_s = options_.hosted.empty() ? elapsed_s : server_.follow_match(elapsed_s);
+  const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
-  if (simulated_s < options_.warm_up_s) return;
+  for (const game::KeyLog& log : server_.take_finished()) records_.write(log);
+  if (elapsed_s < options_.warm_up_s) return;
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
   costs_.send_s += tick.send_s;
@@ -167,6 +180,9 @@ void ServerProcess::run() {
 void ServerProcess::end() {
   const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
   while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
+  if (options_.hosted.empty()) return;
+  server_.finish_record();
+  for (const game::KeyLog& log : server_.take_finished()) records_.write(log);
 }
 
 std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneChoice& choice) const {
@@ -203,6 +219,23 @@ Json ServerProcess::report() const {
   return report;
 }
 
+/// Throws if no matches of `scene` can be hosted as the options say.
+void require_match(const game::ServeOptions& options, const game::Scene& scene) {
+  if (const auto objection = game::match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
+  if (game::scene_text(options.scene).size() > game::SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
+  game::MatchRecords(options.record).require_writable();
+  if (!options.keys.empty() || options.pace != "realtime") throw std::runtime_error("a hosted match is played by its players in real time: --keys and --pace cannot be given");
+}
+
+/// What a host of matches does unless it is told otherwise.
+void host_by_default(CLI::App& app, game::ServeOptions& options) {
+  if (options.hosted.empty()) return;
+  options.scene = options.hosted;
+  if (app.count("--policy") == 0) options.policy = "on-event";
+  if (app.count("--rate") == 0) options.rate_hz = 60.0;
+  if (app.count("--record") == 0) options.record = "matches";
+}
+
 /// Throws if nobody could ever satisfy the options, or a file for the results could not be written when the run is over.
 void require_room(const game::ServeOptions& options, const game::Scene& scene) {
   const game::Bodies& bodies = scene.bodies;
@@ -214,7 +247,8 @@ void require_room(const game::ServeOptions& options, const game::Scene& scene) {
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
   if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
   game::require_writable("--report", options.report);
-  game::require_writable("--record", options.record);
+  if (options.hosted.empty()) game::require_writable("--record", options.record);
+  else require_match(options, scene);
   game::require_writable("--evidence", options.evidence);
 }
 
@@ -253,7 +287,7 @@ game::ExitStatus serve(game::ServeOptions& options) {
   game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (evidence) game::write_evidence(options.evidence, *evidence);
-  if (!options.record.empty()) {
+  if (!options.record.empty() && options.hosted.empty()) {
     game::KeyLog log = game::key_log_for(scene);
     log.scene = options.scene;
     log.events = process.server().record();
@@ -294,6 +328,7 @@ int main(int count, char** values) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
+  host_by_default(app, options);
   std::signal(SIGINT, [](int) { is_interrupted = 1; });
   std::signal(SIGTERM, [](int) { is_interrupted = 1; });
   std::signal(SIGPIPE, SIG_IGN);

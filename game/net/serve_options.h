@@ -13,16 +13,19 @@
 namespace rink::game {
 
 struct ServeOptions {
-  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, pace = "realtime";
+  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, pace = "realtime", hosted;
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
-  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0;
+  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0;
 };
 
 inline void add_options(CLI::App& app, ServeOptions& options) {
   app.description("The server federate: simulates a scene exactly and tells each client what lies in its interest.");
   app.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region --duration 30 --report server.json\n\n") + exit_status_help);
+  app.add_option("match", options.hosted, "host matches of this scene, one after the other, until interrupted: on-event, 60 ticks per second unless said otherwise (docs/play.md)");
+  app.add_option("--countdown", options.countdown_s, "of hosted matches [s]")->check(number_from(0.0, 60.0))->capture_default_str();
+  app.add_option("--absence", options.absence_s, "how long a hosted match waits for a player who has left [s]")->check(number_from(0.0, 3600.0))->capture_default_str();
   app.add_option("--scene", options.scene, "preset (match, crowd) or TOML file")->capture_default_str();
   app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--bat-count", options.bat_count, "so many bats on the same field instead; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
@@ -44,7 +47,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--clients", options.clients, "players to wait for before the start")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(number_from(0.001, seconds_max))->capture_default_str();
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
-  app.add_option("--record", options.record, "file for the key log of this run");
+  app.add_option("--record", options.record, "file for the key log of this run; folder for those of hosted matches, by default matches");
   app.add_option("--evidence", options.evidence, "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }

@@ -8,6 +8,12 @@
 #include "game/replication/names.h"
 
 namespace rink::game {
+namespace {
+
+/// How far ahead a player may stamp its keys [s]: what it needs against jitter is far less, and who stamps them later only hurts itself.
+constexpr double key_lead_max = 0.25;
+
+}  // namespace
 
 Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings, std::function<double()> now)
     : model_(fom),
@@ -17,6 +23,12 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       policy_(make_update_policy(settings.policy)),
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this) {
+  assert(!settings.hosting || (!is_replay_ && !match_objection(scene)));
+  if (settings.hosting) {
+    hosting_ = settings.hosting;
+    scene_ = scene;
+    flow_.emplace(hosting_->times);
+  }
   assert(policy_ && "the command line is checked against update_policy_names()");
   is_taken_.resize(game_.player_count());
   felt_.resize(game_.player_count());
@@ -30,6 +42,7 @@ void Server::joined(rti::FederateHandle) {
   ambassador_.publish_interaction_class(model_.seat);
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.subscribe_interaction_class(interaction);
   publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_, sweep_);
+  if (flow_) announce_match();
 }
 
 void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
@@ -46,8 +59,9 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
   const std::optional<std::uint32_t> player = free_seat(name);
   if (!player) return offer_seat(federate, {});
   if (seats_.size() <= federate.value) seats_.resize(federate.value + 1);
-  seats_[federate.value] = Seat{.player = *player};
-  if (!is_replay_ && !game_.bat(*player)) submit({.time = std::max(now_(), game_.now()), .player = *player, .kind = InputKind::enter});
+  seats_[federate.value] = Seat{.player = *player, .held = {}};
+  if (flow_) flow_->enter(*player, now_());
+  else if (!is_replay_ && !game_.bat(*player)) submit({.time = simulated_now(), .player = *player, .kind = InputKind::enter});
   is_taken_[*player] = true;
   felt_[*player] = 0;
   ++player_count_;
@@ -55,11 +69,12 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
 
 void Server::federate_resigned(rti::FederateHandle federate, std::string_view, std::string_view, rti::ResignReason reason) {
   if (reason != rti::ResignReason::resigned) ++counters_.federates_lost;
-  const Seat* seat = seat_of(federate);
+  Seat* seat = seat_of(federate);
   if (seat == nullptr) return;
   const std::uint32_t player = seat->player;
   std::erase_if(pending_, [player](const Pending& pending) { return pending.player == player; });
-  if (!is_replay_) submit({.time = std::max(now_(), game_.now()), .player = player, .kind = InputKind::leave});
+  if (flow_) release_keys(*seat), flow_->leave(player, now_());
+  else if (!is_replay_) submit({.time = simulated_now(), .player = player, .kind = InputKind::leave});
   if (seat->is_turn_done) --turns_done_;
   --player_count_;
   is_taken_[player] = false;
@@ -80,18 +95,21 @@ void Server::offer_seat(rti::FederateHandle federate, const SeatOffer& offer) {
   ambassador_.send_directed_interaction(model_.seat, federate, encode(bytes, offer), {.time = game_.now(), .tag = 0});
 }
 
-void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp&) {
+void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) {
+  if (flow_ && interaction == model_.ping) return answer(sender, stamp.tag);
   Seat* seat = seat_of(sender);
   if (seat == nullptr) return;
   if (interaction == model_.update) {
     turns_done_ += seat->is_turn_done ? 0u : 1u;
     seat->is_turn_done = true;
+  } else if (interaction == model_.pause || interaction == model_.rematch) {
+    receive_wish(*seat, interaction, parameters);
   } else {
-    receive_key(*seat, parameters, interaction == model_.key_down);
+    receive_key(*seat, parameters, interaction == model_.key_down, stamp.time);
   }
 }
 
-void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down) {
+void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double wanted_s) {
   ++counters_.keys_received;
   KeyCharacter character;
   const std::optional<Key> key = decode(parameters, character) ? key_from_character(static_cast<char>(character.character)) : std::nullopt;
@@ -99,9 +117,13 @@ void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down) {
     ++counters_.keys_refused;
     return;
   }
-  const double time = std::max(now_(), game_.now());
+  double time = simulated_now();
+  if (flow_ && wanted_s < time - 1e-4) ++counters_.keys_late;
+  if (flow_) time = seat.last_key_s = std::max({time, seat.last_key_s, std::min(wanted_s, time + key_lead_max)});
   pending_.push_back({.time = time, .player = seat.player});
-  if (!is_replay_) submit({.time = time, .player = seat.player, .kind = is_down ? InputKind::key_down : InputKind::key_up, .key = *key});
+  if (!are_keys_felt()) return;
+  submit({.time = time, .player = seat.player, .kind = is_down ? InputKind::key_down : InputKind::key_up, .key = *key});
+  seat.held.set(*key, is_down);
 }
 
 void Server::submit(const InputEvent& event) {
@@ -120,10 +142,14 @@ void Server::simulate(double until) {
   for (std::optional<Seat>& seat : seats_)
     if (seat) seat->is_turn_done = false;
   turns_done_ = 0;
+  if (!flow_ || !flow_->runs() || !game_.is_over()) return;
+  const MatchState& match = flow_->state();
+  flow_->win(game_.score().left > game_.score().right ? Team::left : Team::right, match.clock_real_s + game_.now() - match.clock_simulated_s);
 }
 
 void Server::publish(const rti::Stamp& stamp) {
   publisher_->publish(game_, felt_, stamp);
+  if (flow_) publish_match(stamp);
   offer_seats();
 }
 

@@ -6,13 +6,22 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/control/key_log.h"
+#include "game/control/match_flow.h"
 #include "game/replication/publisher.h"
 #include "rti/ambassador.h"
 
 namespace rink::game {
+
+/// What a server needs to host matches: one game of the scene after the other, for whoever takes the two seats (docs/play.md, "The match over the network").
+struct Hosting {
+  FlowTimes times;
+  std::string scene_text;  ///< the scene's file: players work out from it what to show, records need no other; at most SceneText::size_max bytes
+};
 
 struct ServerSettings {
   std::string federation = "rink";
@@ -22,16 +31,19 @@ struct ServerSettings {
   /// A recorded key log that moves the bats instead of the players' own keys, so that compared runs play the very same game.
   /// Live keys are then received, counted and acknowledged as ever, but not applied; nor are players' comings and goings.
   std::optional<std::vector<InputEvent>> replay;
+  /// Absent: one game that never stops. There must be no match_objection() to the scene, and no replay (both asserted).
+  std::optional<Hosting> hosting{};
 };
 
 struct ServerCounters {
   std::uint64_t keys_received = 0, keys_applied = 0, keys_refused = 0, federates_lost = 0;
+  std::uint64_t keys_late = 0;  ///< of hosted matches: arrived after the instant for which they were stamped, by more than 0.1 ms
 };
 
 /// The federate that simulates. It reads no clock: `now` tells the simulated instant when a key arrives, `simulate` how far to go.
 class Server : public rti::FederateAmbassador {
  public:
-  /// `now` [s] is asked once for each arriving key; it never decreases.
+  /// `now` [s] is asked once for each arriving key; it never decreases. It is simulated time, or real time from any origin if the server hosts matches.
   Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings, std::function<double()> now);
 
   rti::Ambassador& ambassador() { return ambassador_; }
@@ -47,6 +59,17 @@ class Server : public rti::FederateAmbassador {
   bool is_started() const { return is_started_; }
   /// Synchronous mode: true if every player has said `Update` since the last call of `simulate`.
   bool all_turns_done() const { return player_count_ > 0 && turns_done_ == player_count_; }
+
+  /// Hosting only: lets real time pass to `real_s` [s], begins the next match if it is time, and tells how far to simulate.
+  double follow_match(double real_s);
+  /// Records of the matches that came to their end, or were given up, since they were last taken; the first players' is first.
+  std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
+  /// The present match counts as given up, so that there is a record of it.
+  void finish_record();
+  /// Null unless the server hosts matches.
+  const MatchState* match() const { return flow_ ? &flow_->state() : nullptr; }
+  /// True once after something was said that should not wait for the next tick.
+  bool take_urgent() { return std::exchange(is_urgent_, false); }
 
   /// Advances the game to `until` [s], applying every key at exactly its stamped time.
   void simulate(double until);
@@ -67,6 +90,8 @@ class Server : public rti::FederateAmbassador {
     std::uint32_t player = 0;
     bool is_offered = false;  ///< the player has been told
     bool is_turn_done = false;
+    KeysHeld held;            ///< once all that was submitted is felt
+    double last_key_s = 0.0;  ///< the simulated instant of the last one
   };
   struct Pending {
     double time;
@@ -85,7 +110,15 @@ class Server : public rti::FederateAmbassador {
   std::optional<std::uint32_t> free_seat(std::string_view federate_name) const;
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
   void offer_seats();
-  void receive_key(Seat& seat, rti::Bytes parameters, bool is_down);
+  void receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double wanted_s);
+  void receive_wish(Seat& seat, rti::InteractionClassHandle interaction, rti::Bytes parameters);
+  void answer(rti::FederateHandle sender, std::uint64_t number);
+  void publish_match(const rti::Stamp& stamp);
+  void announce_match();
+  void begin_match();
+  void release_keys(Seat& seat);
+  bool are_keys_felt() const;
+  double simulated_now() const;
   void submit(const InputEvent& event);
   Seat* seat_of(rti::FederateHandle federate);
 
@@ -106,6 +139,17 @@ class Server : public rti::FederateAmbassador {
   bool is_started_ = false;
   std::string trouble_;
   ServerCounters counters_;
+
+  // Of a server that hosts matches.
+  std::optional<Hosting> hosting_;
+  std::optional<Scene> scene_;
+  std::optional<MatchFlow> flow_;
+  std::optional<MatchState> published_match_;
+  rti::ObjectHandle match_;
+  std::uint32_t match_number_ = 0;
+  std::vector<KeyLog> finished_;
+  bool is_recorded_ = false;  ///< the present match
+  bool is_urgent_ = false;
 };
 
 }  // namespace rink::game

@@ -45,6 +45,9 @@ void Serving::exchange(double longest_wait_s) {
   host_.flush();
   endpoint_.poll({}, links_);
   link_.flush(now_s_());
+  if (!server_.take_urgent()) return;
+  host_.poll({});
+  host_.flush();
 }
 
 TickCosts Serving::tick(double simulated_s, double due_s) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "game/physics/paper/naive_simulator.h"
 #include "game/physics/paper/paper_simulator.h"
@@ -15,6 +16,7 @@ namespace {
 class ExactSimulator final : public Simulator {
  public:
   explicit ExactSimulator(const WorldSpec& spec) : world_(spec) {}
+  explicit ExactSimulator(World world) : world_(std::move(world)) {}
 
   BodyId add(const PuckSpec& spec) override { return world_.add(spec); }
   BodyId add(const BatSpec& spec) override { return world_.add(spec); }
@@ -50,6 +52,12 @@ class ExactSimulator final : public Simulator {
   Vector2 momentum() const override { return world_.momentum(); }
   double max_overlap() const override { return world_.max_overlap(); }
   std::uint64_t hash() const override { return world_.hash(); }
+
+  std::unique_ptr<Simulator> copy() const override {
+    std::optional<World> world = World::restore(world_.save());
+    assert(world);
+    return std::make_unique<ExactSimulator>(std::move(*world));
+  }
 
   const World* exact_world() const override { return &world_; }
 

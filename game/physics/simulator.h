@@ -55,6 +55,9 @@ class Simulator {
   virtual double max_overlap() const = 0;
   virtual std::uint64_t hash() const = 0;
 
+  /// Another that goes on from here with the same bits, recorded events apart; null for engines that cannot be copied, all but the exact one.
+  virtual std::unique_ptr<Simulator> copy() const { return nullptr; }
+
   /// The world behind the exact engine, for those who need its closed forms; null for every other engine.
   virtual const World* exact_world() const { return nullptr; }
 };

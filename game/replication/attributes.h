@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "game/control/match_flow.h"
 #include "game/physics/body.h"
 #include "rti/stream.h"
 
@@ -55,6 +56,41 @@ struct SeatOffer {
   std::uint32_t bat = no_bat;
   Position position;
 };
+
+/// Whether a player wants a match to stop or to go on.
+struct PauseWish {
+  std::uint8_t is_wanted = 0;
+};
+
+/// The text of a hosted match's scene; a view of bytes that somebody else keeps.
+struct SceneText {
+  static constexpr std::size_t size_max = 32'000;  ///< bytes
+  rti::Bytes text;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, PauseWish& wish) {
+  return stream.range(wish.is_wanted, 1);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, SceneText& scene) {
+  return stream.template bytes<std::uint32_t>(scene.text, SceneText::size_max);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, MatchState& state) {
+  auto phase = static_cast<std::uint8_t>(state.phase), wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0));
+  auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none));
+  const bool is_sound = stream.number(state.number) && stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) && stream.range(wants, 3) && stream.range(winner, 2) &&
+                        stream.finite(state.until_s) && stream.finite(state.clock_real_s) && stream.finite(state.clock_simulated_s);
+  if (!is_sound || !Stream::is_reading) return is_sound;
+  state.phase = static_cast<MatchPhase>(phase);
+  state.wants_rematch = {(wants & 1) != 0, (wants & 2) != 0};
+  state.winner.reset();
+  if (static_cast<Team>(winner) != Team::none) state.winner = static_cast<Team>(winner);
+  return true;
+}
 
 template <class Stream>
 bool exchange(Stream& stream, Position& position) {

@@ -14,6 +14,8 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
     known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {
     known_[object].kind = Kind::field;
+  } else if (object_class == model_.match) {
+    known_[object].kind = Kind::match;
   }
 }
 
@@ -31,6 +33,8 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
     is_sound = decode(values, goals_);
   } else if (told->kind == Kind::field) {
     is_sound = reflect_field(attributes, values);
+  } else if (told->kind == Kind::match) {
+    is_sound = reflect_match(attributes, values);
   }
   if (!is_sound) ++counters_.malformed;
 }
@@ -67,6 +71,20 @@ bool Mirror::reflect_field(rti::AttributeSet attributes, rti::Bytes values) {
   drag_ = drag;
   for (MirroredEntity& each : entities_) follow_law(each);
   return true;
+}
+
+bool Mirror::reflect_match(rti::AttributeSet attributes, rti::Bytes values) {
+  rti::Reader reader(values);
+  MatchState state = match_;
+  SceneText scene;
+  if (attributes.contains(model_.match_state) && !exchange(reader, state)) return false;
+  if (attributes.contains(model_.match_scene)) {
+    if (!exchange(reader, scene)) return false;
+    match_scene_.assign(reinterpret_cast<const char*>(scene.text.data()), scene.text.size());
+  }
+  match_ = state;
+  has_match_ = has_match_ || attributes.contains(model_.match_state);
+  return reader.is_at_end();
 }
 
 void Mirror::follow_law(MirroredEntity& entity) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,13 +58,17 @@ class Mirror {
   const Goals& goals() const { return goals_; }
   const std::optional<Extent>& field() const { return field_; }
   const Drag& drag() const { return drag_; }
+  /// Of a hosted match; number 0 before it was heard of.
+  const MatchState& match() const { return match_; }
+  const std::string& match_scene() const { return match_scene_; }
+  bool has_match() const { return has_match_; }
   const rti::Stamp& newest() const { return newest_; }  ///< the stamp of the newest update of any object
   const MirrorCounters& counters() const { return counters_; }
   /// Of tables, the mirror itself not counted.
   std::size_t memory_bytes() const { return known_.memory_bytes() + entities_.capacity() * sizeof(MirroredEntity); }
 
  private:
-  enum class Kind : std::uint8_t { entity, score, field };
+  enum class Kind : std::uint8_t { entity, score, field, match };
   struct Known {
     Kind kind = Kind::entity;
     std::uint32_t slot = 0;  ///< in entities_
@@ -72,6 +77,7 @@ class Mirror {
   MirroredEntity* entity(rti::ObjectHandle object);
   bool reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values);
   bool reflect_field(rti::AttributeSet attributes, rti::Bytes values);
+  bool reflect_match(rti::AttributeSet attributes, rti::Bytes values);
   void follow_law(MirroredEntity& entity) const;
 
   const ObjectModel& model_;
@@ -80,6 +86,9 @@ class Mirror {
   std::vector<MirroredEntity> entities_;
   Goals goals_;
   std::optional<Extent> field_;
+  MatchState match_;
+  std::string match_scene_;
+  bool has_match_ = false;
   Drag drag_;
   rti::Stamp newest_;
   MirrorCounters counters_;

@@ -12,6 +12,8 @@ inline constexpr const char* start_barrier = "start";
 /// Federates of this type are given a bat; others only watch.
 inline constexpr const char* player_federate_type = "player";
 
+inline constexpr const char* watcher_federate_type = "watcher";
+
 /// The RTI object that player `player` plays.
 inline std::string bat_name(std::uint32_t player) { return "bat-" + std::to_string(player); }
 

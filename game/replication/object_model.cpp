@@ -37,12 +37,19 @@ rti::AttributeHandle attribute(const rti::Fom& fom, rti::ObjectClassHandle owner
   return *found;
 }
 
+rti::AttributeHandle varying_attribute(const rti::Fom& fom, rti::ObjectClassHandle owner, const char* name) {
+  const std::optional<rti::AttributeHandle> found = fom.attribute(owner, name);
+  if (!found || fom.values_size(owner, {*found})) refuse(fom, "has no attribute '" + fom.at(owner).name + "." + name + "' whose size varies");
+  return *found;
+}
+
 }  // namespace
 
 ObjectModel::ObjectModel(const rti::Fom& fom)
     : entity(object_class(fom, "Entity")),
       score(object_class(fom, "Score")),
       field(object_class(fom, "Field")),
+      match(object_class(fom, "Match")),
       shape(attribute<Shape>(fom, entity, "shape")),
       input(attribute<Input>(fom, entity, "input")),
       position(attribute<Position>(fom, entity, "position")),
@@ -50,9 +57,15 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       goals(attribute<Goals>(fom, score, "goals")),
       extent(attribute<Extent>(fom, field, "extent")),
       drag(attribute<Drag>(fom, field, "drag")),
+      match_state(attribute<MatchState>(fom, match, "state")),
+      match_scene(varying_attribute(fom, match, "scene")),
       key_down(interaction_class(fom, "KeyDown")),
       key_up(interaction_class(fom, "KeyUp")),
       update(interaction_class(fom, "Update")),
-      seat(interaction_class(fom, "Seat")) {}
+      seat(interaction_class(fom, "Seat")),
+      pause(interaction_class(fom, "Pause")),
+      rematch(interaction_class(fom, "Rematch")),
+      ping(interaction_class(fom, "Ping")),
+      pong(interaction_class(fom, "Pong")) {}
 
 }  // namespace rink::game

@@ -11,11 +11,13 @@ struct ObjectModel {
   /// Throws rti::FileError naming the first class or attribute that `fom` lacks, or whose size is not what the game sends.
   explicit ObjectModel(const rti::Fom& fom);
 
-  rti::ObjectClassHandle entity, score, field;
+  rti::ObjectClassHandle entity, score, field, match;
   rti::AttributeHandle shape, input, position, trajectory;  ///< of entity
   rti::AttributeHandle goals;                   ///< of score
   rti::AttributeHandle extent, drag;            ///< of field
+  rti::AttributeHandle match_state, match_scene;  ///< of match
   rti::InteractionClassHandle key_down, key_up, update, seat;
+  rti::InteractionClassHandle pause, rematch, ping, pong;  ///< of hosted matches
 };
 
 }  // namespace rink::game

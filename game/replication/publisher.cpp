@@ -101,6 +101,12 @@ void Publisher::update(const Game& game, const Entity& entity, const Input& inpu
   ambassador_.update_attribute_values(published.object, sent, encoded_, stamp);
 }
 
+void Publisher::retire_all() {
+  ++tick_;
+  retire_absent();
+  published_.clear();
+}
+
 /// Deletes what was published once but is no longer in the game.
 void Publisher::retire_absent() {
   for (Published& published : published_) {

@@ -30,6 +30,9 @@ class Publisher {
   /// `felt[k]` is the number of player k's key events that the game has felt; players beyond its end felt none.
   void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
 
+  /// Deletes the objects of all entities: another game begins.
+  void retire_all();
+
   /// The RTI object of `entity`, which must be in the game.
   rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
 

@@ -31,9 +31,10 @@ const std::vector<Layer> layers{
     {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
     {"game/view", {"game/view", "game/view/render", "game/match", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"loadgen/duel", {"loadgen/duel", "loadgen", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"loadgen/truth", {"loadgen/truth", "loadgen", "game/net", "game/control", "game/model", "game/physics"}},
     {"loadgen/report", {"loadgen/report", "loadgen"}},
-    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "game/players", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h"};

@@ -1,0 +1,30 @@
+// How a place that turned out to be wrong is left behind without a jump.
+#pragma once
+
+#include "game/physics/body.h"
+
+namespace rink::game {
+
+/// The difference between where a body was shown and where it should have been, on its way to zero within `duration`: smoothly, so that speed does not jump either
+/// (docs/play.md, "Prediction and reconciliation").
+class Blend {
+ public:
+  static constexpr double duration = 0.1;  ///< s
+
+  /// From `now` [s] on `offset` [m] is to vanish; what was still left of an earlier one must be part of it.
+  void begin(const physics::Vector2& offset, double now) {
+    offset_ = offset;
+    since_ = now;
+  }
+  physics::Vector2 at(double now) const {
+    const double u = (now - since_) / duration;
+    if (u >= 1.0) return {0.0, 0.0};
+    return offset_ * ((1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u));
+  }
+
+ private:
+  physics::Vector2 offset_{0.0, 0.0};
+  double since_ = -duration;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,50 @@
+// Real time, times speed, is where in the record to look.
+#include "game/match/replay_match.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace rink::game {
+
+Replay ReplayMatch::read(const std::filesystem::path& file) {
+  KeyLog log = read_key_log(file);
+  require_complete(log, file.string());
+  Scene scene = recorded_scene(log, file.string());
+  return Replay(std::move(log), std::move(scene));
+}
+
+ReplayMatch::ReplayMatch(const std::filesystem::path& file) : replay_(read(file)), sight_(sight_of(replay_.scene())) {}
+
+void ReplayMatch::seek(double instant) {
+  wanted_ = std::clamp(instant, 0.0, end());
+  is_sought_ = true;
+}
+
+void ReplayMatch::set_speed(double speed) {
+  assert(speed >= 0.0);
+  speed_ = speed;
+}
+
+void ReplayMatch::rematch() {
+  seek(0.0);
+  is_paused_ = false;
+}
+
+void ReplayMatch::advance(double now_s) {
+  if (has_begun_ && !is_paused_ && !is_sought_) wanted_ = std::min(end(), wanted_ + speed_ * (now_s - now_s_));
+  has_begun_ = true;
+  now_s_ = now_s;
+  replay_.seek(wanted_);
+  show_game(replay_.game(), sight_);
+  sight_.phase = wanted_ == end() ? MatchPhase::over : is_paused_ ? MatchPhase::paused : MatchPhase::playing;
+  const Score& score = sight_.score;
+  sight_.winner.reset();
+  if (replay_.game().is_over()) sight_.winner = score.left > score.right ? Team::left : Team::right;
+  sight_.notice = replay_.is_as_recorded() == false ? "this is not the game that was recorded: its end differs" : "";
+  if (is_sought_) noises_ = {}, goals_ = {};  // what lies between is not heard
+  is_sought_ = false;
+  goals_.look(sight_, now_s, replay_.scene().rules.face_off_delay);
+  noises_.listen(sight_);
+}
+
+}  // namespace rink::game

@@ -1,0 +1,48 @@
+// A recorded match as it is watched: stopped, sought in, slowed down.
+#pragma once
+
+#include <filesystem>
+
+#include "game/control/replay.h"
+#include "game/match/match_source.h"
+#include "game/match/noises.h"
+#include "game/match/sight.h"
+
+namespace rink::game {
+
+class ReplayMatch final : public MatchSource {
+ public:
+  /// Throws SceneError, naming file, line and what is wrong, if the record is truncated, altered, of another version or incomplete.
+  explicit ReplayMatch(const std::filesystem::path& file);
+
+  void advance(double now_s) override;
+  const MatchSight& sight() const override { return sight_; }
+  std::uint32_t hand_count() const override { return 0; }
+  void press(std::uint32_t, Key, bool) override {}
+  void pause(bool is_wanted) override { is_paused_ = is_wanted; }
+  /// Once more from the start.
+  void rematch() override;
+
+  double end() const { return replay_.end(); }  ///< simulated [s]
+  /// Goes to `instant` [s], or to the nearest there is; shown by the next advance().
+  void seek(double instant);
+  /// Simulated seconds in a real one: 1 at first, 0 or more.
+  void set_speed(double speed);
+  double speed() const { return speed_; }
+  bool is_paused() const { return is_paused_; }
+  /// Whether the game was at its end in the state that was recorded; nothing before it was there.
+  std::optional<bool> is_as_recorded() const { return replay_.is_as_recorded(); }
+
+ private:
+  static Replay read(const std::filesystem::path& file);
+
+  Replay replay_;
+  double wanted_ = 0.0;  ///< where to be [s]
+  double now_s_ = 0.0, speed_ = 1.0;
+  bool has_begun_ = false, is_paused_ = false, is_sought_ = false;
+  MatchSight sight_;
+  NoiseDetector noises_;
+  GoalWatch goals_;
+};
+
+}  // namespace rink::game

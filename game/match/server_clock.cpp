@@ -1,0 +1,56 @@
+// The latest arrival and the longest round trip of late are what is counted on, so that keys are seldom late and truth is seldom missing.
+#include "game/match/server_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rink::game {
+namespace {
+
+double slewed(double from, double to, double most, double jump_from) { return std::abs(to - from) > jump_from ? to : std::clamp(to, from - most, from + most); }
+
+}  // namespace
+
+std::optional<std::uint64_t> ServerClock::ask(double now_s) {
+  if (now_s < next_at_s_) return std::nullopt;
+  // The first few in quick succession: one would not say how much to spare.
+  next_at_s_ = now_s + (next_ <= 4 ? 0.1 : 1.0) * question_period;
+  questions_.push_back({next_, now_s, false});
+  while (questions_.size() > 2 * remembered) questions_.pop_front();
+  return next_++;
+}
+
+void ServerClock::answered(std::uint64_t number, double server_s, double now_s) {
+  const auto question = std::find_if(questions_.begin(), questions_.end(), [number](const Question& asked) { return asked.number == number; });
+  if (question == questions_.end() || question->is_answered || !std::isfinite(server_s)) return;
+  question->is_answered = true;
+  const Answer answer{.offset = server_s - question->sent_s + margin, .round_trip = now_s - question->sent_s};
+  if (!answers_.empty()) jitter_ += (std::abs(answer.round_trip - answers_.back().round_trip) - jitter_) / 16.0;
+  answers_.push_back(answer);
+  while (answers_.size() > remembered) answers_.pop_front();
+  advance(now_s);
+}
+
+void ServerClock::advance(double now_s) {
+  const double most = slew * std::max(0.0, now_s - now_s_);
+  now_s_ = now_s;
+  if (answers_.empty()) return;
+  const auto by_offset = [](const Answer& a, const Answer& b) { return a.offset < b.offset; };
+  const auto by_round_trip = [](const Answer& a, const Answer& b) { return a.round_trip < b.round_trip; };
+  const double offset = std::max_element(answers_.begin(), answers_.end(), by_offset)->offset;
+  const double round_trip = std::max_element(answers_.begin(), answers_.end(), by_round_trip)->round_trip;
+  offset_ = is_first_ ? offset : slewed(offset_, offset, most, jump_from);
+  round_trip_ = is_first_ ? round_trip : slewed(round_trip_, round_trip, most, jump_from);
+  is_first_ = false;
+}
+
+double ServerClock::loss() const {
+  std::size_t asked = 0, lost = 0;
+  for (const Question& question : questions_) {
+    if (question.is_answered || now_s_ - question.sent_s > 1.0) ++asked;
+    if (!question.is_answered && now_s_ - question.sent_s > 1.0) ++lost;
+  }
+  return asked == 0 ? 0.0 : static_cast<double>(lost) / static_cast<double>(asked);
+}
+
+}  // namespace rink::game

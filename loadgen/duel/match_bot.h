@@ -1,0 +1,32 @@
+// Somebody who plays a hosted match as a person would: on what the own client shows, with the keys of one hand.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "game/net/network_match.h"
+#include "game/players/player.h"
+
+namespace rink::loadgen {
+
+class MatchBot {
+ public:
+  /// `kind` is one of game::player_kinds().
+  MatchBot(std::string kind, std::uint64_t seed) : kind_(std::move(kind)), seed_(seed) {}
+
+  /// Decides when it is time to, and presses; to be called before each frame of `match`, at real time `now_s`.
+  void act(game::NetworkMatch& match, double now_s);
+
+ private:
+  void decide(game::NetworkMatch& match);
+
+  std::string kind_;
+  std::uint64_t seed_;
+  std::unique_ptr<game::Player> player_;
+  game::KeysHeld held_;
+  double next_s_ = 0.0;
+};
+
+}  // namespace rink::loadgen

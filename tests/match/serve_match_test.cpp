@@ -1,0 +1,68 @@
+// rink serve match, two bots over TCP, and the record of what they played, as commands.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "loadgen/process.h"
+
+namespace rink::game {
+namespace {
+
+using loadgen::Process;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+std::filesystem::path command(const std::string& name) { return std::string(RINK_BINARY_DIR) + "/bin/rink-" + name; }
+
+int status_of(Process& process, std::chrono::seconds patience) {
+  const auto limit = std::chrono::steady_clock::now() + patience;
+  while (!process.ending() && std::chrono::steady_clock::now() < limit) process.attend(20ms);
+  return process.ending() ? process.ending()->exit_status : -1;
+}
+
+struct AHost : testing::Test {
+  AHost() : folder(std::filesystem::path(testing::TempDir()) / ("matches-" + std::to_string(getpid()))) {
+    host = std::make_unique<Process>(command("serve"), std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record", folder.string()}, std::vector<int>{});
+    for (int i = 0; i < 500 && !place; ++i) host->attend(10ms), place = host->line_after("listening on ");
+  }
+  ~AHost() override { std::filesystem::remove_all(folder); }
+
+  std::filesystem::path folder;
+  std::unique_ptr<Process> host;
+  std::optional<std::string> place;
+};
+
+TEST_F(AHost, RecordsAMatchThatItsPlayersLeaveAndTheRecordReplaysToTheSameHash) {
+  ASSERT_TRUE(place) << host->last_words();
+  Process duel(command("duel"), {"--connect", *place, "--duration", "2.5"}, {});
+  EXPECT_EQ(status_of(duel, 10s), 0) << duel.last_words();
+  host->stop(5s);
+  EXPECT_EQ(host->ending()->exit_status, 130) << host->last_words();
+  Process replay(command("replay"), {(folder / "match-1.keys").string()}, {});
+  EXPECT_EQ(status_of(replay, 10s), 0) << replay.last_words();
+}
+
+TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
+  ASSERT_TRUE(place) << host->last_words();
+  Process duel(command("duel"), {"--connect", *place, "--duration", "60"}, {});
+  for (int i = 0; i < 25; ++i) duel.attend(20ms);
+  ASSERT_FALSE(duel.ending()) << duel.last_words();
+  host.reset();
+  EXPECT_EQ(status_of(duel, 3s), 16);
+  EXPECT_THAT(duel.last_words(), HasSubstr("closed by peer"));
+}
+
+TEST(ServeMatch, RefusesAScenesThatIsNoMatchAndAFolderThatCannotBeWritten) {
+  Process crowd(command("serve"), {"crowd", "--port", "0"}, {});
+  EXPECT_EQ(status_of(crowd, 10s), 2);
+  EXPECT_THAT(crowd.last_words(), HasSubstr("cannot be hosted: it has populations"));
+  Process nowhere(command("serve"), {"match", "--port", "0", "--record", "/proc/nowhere"}, {});
+  EXPECT_EQ(status_of(nowhere, 10s), 2);
+  EXPECT_THAT(nowhere.last_words(), HasSubstr("/proc/nowhere"));
+}
+
+}  // namespace
+}  // namespace rink::game
