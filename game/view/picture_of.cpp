@@ -54,7 +54,11 @@ Scoreboard board_of(const MatchSight& sight, Viewpoint viewpoint) {
   return board;
 }
 
-std::string name_of(const MatchSight& sight, game::Team team) { return team == game::Team::left ? sight.left_name : sight.right_name; }
+/// Players of a network match have no names: one is you.
+std::string name_of(const MatchSight& sight, game::Team team) {
+  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
+  return team == game::Team::left ? sight.left_name : sight.right_name;
+}
 
 /// "RED WINS", "YOU WIN".
 std::string victory(std::string name) {
@@ -64,7 +68,7 @@ std::string victory(std::string name) {
 }
 
 void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
-  const double whole = std::ceil(sight.remaining_s), part = whole - sight.remaining_s;  // part of the second that is over
+  const double whole = std::ceil(sight.remaining_s - 0.05), part = whole - sight.remaining_s;  // part of the second that is over
   Colour colour{1.0f, 0.76f, 0.18f, 1.0f};
   colour.alpha = static_cast<float>(1.0 - 0.85 * part * part);
   char words[8];

@@ -55,15 +55,6 @@ MatchSight crowd_sight() {
   return sight;
 }
 
-Overlay crowd_overlay() {
-  Overlay overlay;
-  overlay.cell_size = 1.25;
-  overlay.rectangles.push_back({4.2, 3.0, 7.4, 6.2, {0.2f, 0.8f, 0.4f, 0.18f}, {0.1f, 0.6f, 0.2f, 1.0f}});
-  for (int i = 0; i < 12; ++i) overlay.discs.push_back({0.25 + 0.39 * (12 + i % 4), 0.3 + 0.48 * (7 + i / 4), 0.09, {0.1f, 0.7f, 0.25f, 1.0f}, i % 2 == 0});
-  overlay.lines = {"scheme grid, cells of 1.25 m", "bat 17 hears of 64 of 1040"};
-  return overlay;
-}
-
 class GoldenImages : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -183,7 +174,6 @@ TEST_F(GoldenImages, OfTheEnd) {
 TEST_F(GoldenImages, OfANetworkMatch) {
   MatchSight sight = match_sight();
   sight.own_team = game::Team::right;
-  sight.left_name = "Them", sight.right_name = "You";
   sight.link = LinkFigures{.ping_ms = 42.0, .jitter_ms = 1.7, .loss = 0.01, .tick = 12345, .payload_bytes_per_s = 412.0};
   sight.phase = Phase::away;
   sight.remaining_s = 17.3;
@@ -196,7 +186,7 @@ TEST_F(GoldenImages, OfANetworkMatch) {
 
 TEST_F(GoldenImages, OfACrowdWithItsOverlay) {
   play(crowd_sight());
-  application_->set_overlay(crowd_overlay());
+  application_->set_interest({.cell_size = 1.25, .view_fraction = 0.05, .chosen = 12});
   expect_golden("crowd");
   for (int i = 0; i < 6; ++i) tap("equal");
   expect_golden("crowd_zoomed");
@@ -214,7 +204,7 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
   application_->play({.kind = MatchWish::Kind::join, .address = "localhost:1"});
   frame();
   EXPECT_TRUE(application_->is_in_menu());
-  EXPECT_EQ(told, "the host is gone");
+  EXPECT_EQ(told, "The match cannot go on: the host is gone");
 }
 
 }  // namespace
