@@ -100,7 +100,7 @@ Trial crowd() {
   game::RandomStream random(3);
   for (int at = 0; at < 600; at += 6)
     for (std::uint32_t bat = 0; bat < trial.bats.size(); ++bat)
-      trial.pushes.push_back({at_frame(at), bat, 8.0 * Vector2(static_cast<double>(random.below(3)) - 1.0, static_cast<double>(random.below(3)) - 1.0)});
+      trial.pushes.push_back({at_frame(at), bat, 8.0 * Vector2{static_cast<double>(random.below(3)) - 1.0, static_cast<double>(random.below(3)) - 1.0}});
   return trial;
 }
 

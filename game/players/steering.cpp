@@ -53,7 +53,8 @@ KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& ran
   if (stuck_ < stuck_decisions) return held_ = due;
   stuck_ = 0;
   escaping_ = escape_decisions;
-  escape_ = keys_towards(static_cast<int>(random.below(3)) - 1, static_cast<int>(random.below(3)) - 1);
+  const int up = static_cast<int>(random.below(3)) - 1, right = static_cast<int>(random.below(3)) - 1;  // apart: the order of arguments is the compiler's
+  escape_ = keys_towards(right, up);
   return held_ = escape_;
 }
 
