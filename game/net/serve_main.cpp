@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "game/control/key_log.h"
+#include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/evidence.h"
@@ -218,6 +220,21 @@ void require_room(const game::ServeOptions& options, const game::Scene& scene) {
   game::require_writable("--evidence", options.evidence);
 }
 
+/// All that it takes to play the game again up to now and to compare the hash.
+game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene, const game::Server& server) {
+  game::KeyLog log = game::key_log_for(scene);
+  log.scene = choice.scene;
+  log.scene_text = game::scene_text(choice.scene);
+  if (choice.bat_count > 0) log.bat_count = choice.bat_count;
+  if (choice.puck_count > 0) log.puck_count = choice.puck_count;
+  log.until = server.game().now();
+  log.hash = server.game().hash();
+  log.events = server.record();
+  std::erase_if(log.events, [&](const game::InputEvent& event) { return event.time > *log.until; });
+  std::ranges::stable_sort(log.events, {}, &game::InputEvent::time);
+  return log;
+}
+
 game::ExitStatus serve(game::ServeOptions& options) {
   std::string federation = "rink", fom_path = game::fom_file();
   if (!options.federation_file.empty()) {
@@ -246,19 +263,16 @@ game::ExitStatus serve(game::ServeOptions& options) {
   const bool is_complete = process.start();
   if (is_complete) process.run();
   Json report = process.report();
-  std::optional<game::ServerEvidence> evidence = process.evidence(choice);  // before the players leave, for the hash is of now
+  // Both before the players leave, for the hash is of now.
+  std::optional<game::ServerEvidence> evidence = process.evidence(choice);
+  const game::KeyLog log = options.record.empty() ? game::KeyLog{} : record_of(choice, scene, process.server());
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
   process.end();
   game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (evidence) game::write_evidence(options.evidence, *evidence);
-  if (!options.record.empty()) {
-    game::KeyLog log = game::key_log_for(scene);
-    log.scene = options.scene;
-    log.events = process.server().record();
-    game::write_key_log(options.record, log);
-  }
+  if (!options.record.empty()) game::write_key_log(options.record, log);
   if (is_interrupted) return game::ExitStatus::interrupted;
   if (!is_complete) {
     spdlog::error("{} of {} players came within {} s", process.server().player_count(), options.clients, options.patience_s);
