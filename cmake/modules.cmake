@@ -61,15 +61,19 @@ function(rink_share kind path)
   endif()
 endfunction()
 
-# rink_tests(NAME DEPENDS targets...): one GoogleTest executable from the calling folder. Suites whose name holds Long are labelled long, those whose
+# rink_tests(NAME [OPTIMISED] DEPENDS targets...): one GoogleTest executable from the calling folder. Suites whose name holds Long are labelled long, those whose
 # name holds Threaded threaded (the thread sanitizer runs these), the rest quick. Whatever is not long is quick enough for every run.
 function(rink_tests name)
-  cmake_parse_arguments(tests "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(tests "OPTIMISED" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(NOT sources)
     return()
   endif()
   add_executable(test-${name} ${sources})
+  # Under a sanitizer g++ takes twice as long with optimisation, and what these sources test is optimised elsewhere. Only tests that compute much in headers want it.
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize" AND NOT tests_OPTIMISED)
+    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -O0)
+  endif()
   target_link_libraries(test-${name} PRIVATE ${tests_DEPENDS} rink_options GTest::gmock GTest::gtest_main)
   foreach(source IN LISTS sources)
     file(STRINGS ${source} threaded REGEX "^TEST.*Threaded" LIMIT_COUNT 1)

@@ -1,4 +1,4 @@
-// A run's figures key by key, the inverse of to_json(RunRecord); tests hold the two together.
+// A run's figures key by key, the inverse of to_json(RunRecord): both follow loadgen/run_fields.h.
 #include "loadgen/run_journal.h"
 
 #include <cerrno>
@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "loadgen/results.h"
+#include "loadgen/run_fields.h"
 
 namespace rink::loadgen {
 namespace {
@@ -20,49 +21,51 @@ class LineReader {
  public:
   explicit LineReader(const nlohmann::json& line) : line_(line) {}
 
-  void read(const char* key, std::string& into) {
+  void field(const char* key, std::string& into) {
     const nlohmann::json* value = find(key);
     if (value && value->is_string()) into = value->get<std::string>();
     else if (value && value->is_null()) into.clear();
     else complain(key, "a text or null");
   }
-  void read(const char* key, bool& into) {
+  void field(const char* key, bool& into) {
     const nlohmann::json* value = find(key);
     if (value && value->is_boolean()) into = value->get<bool>();
     else complain(key, "true or false");
   }
-  void read(const char* key, double& into) {
+  void field(const char* key, double& into) {
     const nlohmann::json* value = find(key);
     if (value && value->is_number()) into = value->get<double>();
     else complain(key, "a number");
   }
   template <class Count>
     requires std::is_unsigned_v<Count>
-  void read(const char* key, Count& into) {
+  void field(const char* key, Count& into) {
     const nlohmann::json* value = find(key);
     if (value && value->is_number_unsigned() && value->get<std::uint64_t>() <= std::numeric_limits<Count>::max()) into = value->get<Count>();
     else complain(key, "a count");
   }
   template <class Value>
-  void read(const char* key, std::optional<Value>& into) {
+  void field(const char* key, std::optional<Value>& into) {
     const nlohmann::json* value = find(key);
     if (value && value->is_null()) return into.reset();
     Value number{};
-    read(key, number);
+    field(key, number);
     into = number;
   }
-  void read(const char* key, Percentiles& into) {
+  void field(const char* key, Percentiles& into) {
     if (LineReader part(object(key)); part.line_.is_object()) {
-      part.read("p50", into.p50), part.read("p90", into.p90), part.read("p95", into.p95), part.read("p99", into.p99), part.read("p999", into.p999), part.read("max", into.max);
+      part.field("p50", into.p50), part.field("p90", into.p90), part.field("p95", into.p95), part.field("p99", into.p99), part.field("p999", into.p999), part.field("max", into.max);
       adopt(key, part);
     }
   }
-  void read(const char* key, ErrorFigures& into) {
+  void field(const char* key, ErrorFigures& into) {
     if (LineReader part(object(key)); part.line_.is_object()) {
-      part.read("rms", into.rms), part.read("p99", into.p99), part.read("max", into.max);
+      part.field("rms", into.rms), part.field("p99", into.p99), part.field("max", into.max);
       adopt(key, part);
     }
   }
+
+  void text_or_null(const char* key, std::string& into) { field(key, into); }
 
   const std::string& complaint() const { return complaint_; }
 
@@ -90,83 +93,6 @@ class LineReader {
   std::string complaint_;
 };
 
-void read_cell(LineReader& line, Cell& cell) {
-  line.read("mode", cell.mode);
-  line.read("scheme", cell.scheme);
-  line.read("policy", cell.policy);
-  line.read("clients", cell.clients);
-  line.read("seed", cell.seed);
-  line.read("view_fraction", cell.parameters.view_fraction);
-  line.read("view_margin", cell.parameters.view_margin);
-  line.read("sweep_ticks", cell.parameters.sweep_ticks);
-  line.read("cell_size", cell.parameters.cell_size);
-  line.read("pucks", cell.pucks);
-  line.read("bats", cell.bats);
-  line.read("server_cores", cell.server_cores);
-}
-
-void read_setting(LineReader& line, RunRecord& run) {
-  line.read("tick_rate_hz", run.tick_rate_hz);
-  line.read("scene", run.scene);
-  line.read("population", run.population);
-  line.read("keys", run.keys);
-  line.read("duration_s", run.duration_s);
-  line.read("warm_up_s", run.warm_up_s);
-  line.read("transport", run.transport);
-  line.read("delay_ms", run.delay_ms);
-  line.read("players", run.players);
-  line.read("view_area", run.view_area);
-}
-
-void read_cost(LineReader& line, RunRecord& run) {
-  line.read("entities", run.entities);
-  line.read("ticks", run.ticks);
-  line.read("ticks_on_time_fraction", run.ticks_on_time_fraction);
-  line.read("down_bytes_per_client_per_s", run.down_bytes_per_client_per_s);
-  line.read("up_bytes_per_client_per_s", run.up_bytes_per_client_per_s);
-  line.read("wire_bytes_per_client_per_s", run.wire_bytes_per_client_per_s);
-  line.read("messages_per_s", run.messages_per_s);
-  line.read("update_age_ms", run.update_age_ms);
-  line.read("key_to_effect_ms", run.key_to_effect_ms);
-  line.read("physics_us_per_tick", run.physics_us_per_tick);
-  line.read("filter_us_per_tick", run.filter_us_per_tick);
-  line.read("send_us_per_tick", run.send_us_per_tick);
-  line.read("server_rss_bytes", run.server_rss_bytes);
-  line.read("state_hash", run.state_hash);
-  line.read("valid", run.valid);
-  line.read("why_invalid", run.why_invalid);
-  line.read("measured_s", run.measured_s);
-  line.read("segments_per_s", run.segments_per_s);
-  line.read("writes_per_s", run.writes_per_s);
-  line.read("keys_due", run.keys_due);
-  line.read("keys_sent", run.keys_sent);
-  line.read("late_sends_fraction", run.late_sends_fraction);
-  line.read("server_cpu_s", run.server_cpu_s);
-  line.read("bots_cpu_s", run.bots_cpu_s);
-  line.read("bots_cpu_share", run.health.bots_cpu_share);
-  line.read("histogram_ns_per_record", run.health.histogram_ns_per_record);
-  line.read("tick_us", run.tick_us);
-}
-
-void read_truth(LineReader& line, TruthFigures& truth) {
-  line.read("filter_precision", truth.filter_precision);
-  line.read("filter_recall", truth.filter_recall);
-  line.read("delivered_precision", truth.delivered_precision);
-  line.read("delivered_recall", truth.delivered_recall);
-  line.read("missed_interactions", truth.missed_interactions);
-  line.read("late_entry_ms", truth.late_entry_ms);
-  line.read("position_error_mm", truth.position_error_mm);
-  line.read("displayed_error_mm", truth.displayed_error_mm);
-  line.read("churn_per_client_per_s", truth.churn_per_client_per_s);
-  line.read("flapping_fraction", truth.flapping_fraction);
-  line.read("wasted_bytes_fraction", truth.wasted_bytes_fraction);
-  line.read("control_bytes_fraction", truth.control_bytes_fraction);
-  line.read("fairness_jain", truth.fairness_jain);
-  line.read("interactions", truth.interactions);
-  line.read("truth_trouble", truth.trouble);
-  line.read("relevance", truth.relevance);
-}
-
 std::optional<JournalHead> head_of(const nlohmann::json& line) {
   if (!line.is_object() || !line.contains("provenance") || !line["provenance"].is_object()) return std::nullopt;
   for (const char* name : {"experiment", "commit"})
@@ -181,10 +107,7 @@ std::optional<JournalHead> head_of(const nlohmann::json& line) {
 std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint) {
   RunRecord run;
   LineReader reader(line);
-  read_cell(reader, run.cell);
-  read_setting(reader, run);
-  read_cost(reader, run);
-  read_truth(reader, run.truth);
+  visit_fields(reader, run);
   complaint = reader.complaint();
   if (!complaint.empty()) return std::nullopt;
   return run;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
+#include "loadgen/run_fields.h"
 #include "loadgen/truth/classification.h"
 
 namespace rink::loadgen {
@@ -175,31 +177,29 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots, st
   if (record.measured_s == 0.0) complaints.push_back("nothing was measured");
 }
 
-template <class Value>
-nlohmann::ordered_json or_null(const std::optional<Value>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-}
+/// Writes what visit_fields() names; absent figures become null.
+class LineWriter {
+ public:
+  template <class Value>
+  void field(const char* key, const Value& value) {
+    line[key] = value;
+  }
+  template <class Value>
+  void field(const char* key, const std::optional<Value>& value) {
+    line[key] = or_null(value);
+  }
+  void field(const char* key, const Percentiles& percentiles) { line[key] = percentiles_json(percentiles); }
+  void field(const char* key, const ErrorFigures& error) { line[key] = {{"rms", or_null(error.rms)}, {"p99", or_null(error.p99)}, {"max", or_null(error.max)}}; }
+  void text_or_null(const char* key, const std::string& text) { line[key] = text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text); }
 
-nlohmann::ordered_json error_json(const ErrorFigures& error) { return {{"rms", or_null(error.rms)}, {"p99", or_null(error.p99)}, {"max", or_null(error.max)}}; }
+  nlohmann::ordered_json line;
 
-void add_truth(nlohmann::ordered_json& line, const TruthFigures& truth) {
-  line["filter_precision"] = or_null(truth.filter_precision);
-  line["filter_recall"] = or_null(truth.filter_recall);
-  line["delivered_precision"] = or_null(truth.delivered_precision);
-  line["delivered_recall"] = or_null(truth.delivered_recall);
-  line["missed_interactions"] = or_null(truth.missed_interactions);
-  line["late_entry_ms"] = percentiles_json(truth.late_entry_ms);
-  line["position_error_mm"] = error_json(truth.position_error_mm);
-  line["displayed_error_mm"] = error_json(truth.displayed_error_mm);
-  line["churn_per_client_per_s"] = or_null(truth.churn_per_client_per_s);
-  line["flapping_fraction"] = or_null(truth.flapping_fraction);
-  line["wasted_bytes_fraction"] = or_null(truth.wasted_bytes_fraction);
-  line["control_bytes_fraction"] = or_null(truth.control_bytes_fraction);
-  line["fairness_jain"] = or_null(truth.fairness_jain);
-  line["interactions"] = or_null(truth.interactions);
-  line["truth_trouble"] = truth.trouble.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(truth.trouble);
-  line["relevance"] = truth.relevance.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(truth.relevance);
-}
+ private:
+  template <class Value>
+  static nlohmann::ordered_json or_null(const std::optional<Value>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  }
+};
 
 }  // namespace
 
@@ -242,58 +242,9 @@ void judge(RunRecord& record, const nlohmann::json& server_report, const nlohman
 }
 
 nlohmann::ordered_json to_json(const RunRecord& record) {
-  nlohmann::ordered_json line;
-  line["mode"] = record.cell.mode;
-  line["scheme"] = record.cell.scheme;
-  line["policy"] = record.cell.policy;
-  line["clients"] = record.cell.clients;
-  line["entities"] = or_null(record.entities);
-  line["seed"] = record.cell.seed;
-  line["tick_rate_hz"] = record.tick_rate_hz;
-  line["ticks"] = or_null(record.ticks);
-  line["ticks_on_time_fraction"] = or_null(record.ticks_on_time_fraction);
-  line["down_bytes_per_client_per_s"] = or_null(record.down_bytes_per_client_per_s);
-  line["up_bytes_per_client_per_s"] = or_null(record.up_bytes_per_client_per_s);
-  line["wire_bytes_per_client_per_s"] = or_null(record.wire_bytes_per_client_per_s);
-  line["messages_per_s"] = or_null(record.messages_per_s);
-  line["update_age_ms"] = percentiles_json(record.update_age_ms);
-  line["key_to_effect_ms"] = percentiles_json(record.key_to_effect_ms);
-  line["physics_us_per_tick"] = or_null(record.physics_us_per_tick);
-  line["filter_us_per_tick"] = or_null(record.filter_us_per_tick);
-  line["send_us_per_tick"] = or_null(record.send_us_per_tick);
-  line["server_rss_bytes"] = or_null(record.server_rss_bytes);
-  line["state_hash"] = record.state_hash.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(record.state_hash);
-  line["valid"] = record.valid;
-  line["why_invalid"] = record.why_invalid;
-  line["scene"] = record.scene;
-  line["population"] = record.population;
-  line["keys"] = record.keys;
-  line["view_fraction"] = record.cell.parameters.view_fraction;
-  line["cell_size"] = record.cell.parameters.cell_size;
-  line["duration_s"] = record.duration_s;
-  line["warm_up_s"] = record.warm_up_s;
-  line["measured_s"] = or_null(record.measured_s);
-  line["segments_per_s"] = or_null(record.segments_per_s);
-  line["writes_per_s"] = or_null(record.writes_per_s);
-  line["keys_due"] = or_null(record.keys_due);
-  line["keys_sent"] = or_null(record.keys_sent);
-  line["late_sends_fraction"] = or_null(record.late_sends_fraction);
-  line["server_cpu_s"] = or_null(record.server_cpu_s);
-  line["bots_cpu_s"] = or_null(record.bots_cpu_s);
-  add_truth(line, record.truth);
-  line["bots_cpu_share"] = or_null(record.health.bots_cpu_share);
-  line["histogram_ns_per_record"] = or_null(record.health.histogram_ns_per_record);
-  line["tick_us"] = percentiles_json(record.tick_us);
-  line["transport"] = record.transport;
-  line["delay_ms"] = record.delay_ms;
-  line["players"] = record.players;
-  line["pucks"] = record.cell.pucks;
-  line["bats"] = record.cell.bats;
-  line["server_cores"] = record.cell.server_cores;
-  line["view_area"] = record.view_area;
-  line["view_margin"] = record.cell.parameters.view_margin;
-  line["sweep_ticks"] = record.cell.parameters.sweep_ticks;
-  return line;
+  LineWriter writer;
+  visit_fields(writer, record);
+  return std::move(writer.line);
 }
 
 }  // namespace rink::loadgen

@@ -26,7 +26,7 @@ enum ExitStatus { success = 0, bad_usage = 2, output_failed = 5, interrupted = 1
 
 constexpr const char* footer = R"(
 Scenes of the diagram: pairs, gas, dense, drag, bats, pressed. Scenes of --stability: fast, dense, collapse, post, wedge, corner, mass-ratio,
-cradle, crowd. The folder then holds report.html (reads offline), points.csv or stability.csv with all that was measured, and plots/ with the
+cradle, overlap, crowd. The folder then holds report.html (reads offline), points.csv or stability.csv with all that was measured, and plots/ with the
 data of each plot. Method, error measure and the settings of the other libraries: docs/accuracy.md.
 
 Exit status: 0 done; 2 bad usage; 5 results could not be written, or are already there; 130 interrupted (what was measured is kept).

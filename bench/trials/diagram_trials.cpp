@@ -36,7 +36,8 @@ void add_pair(Trial& trial, const Vector2& place, double time, RandomStream& ran
   const double heading = random.uniform(0.0, 2.0 * pi), turn = std::asin(random.uniform(-0.9, 0.9));  // grazing at up to nine tenths of the reach
   const Vector2 closing = random.uniform(1.0, 2.0) * Vector2(std::cos(heading), std::sin(heading));
   const Vector2 normal(std::cos(heading + turn), std::sin(heading + turn));
-  a.velocity = closing + random.uniform(0.0, 0.5) * random.direction(), b.velocity = a.velocity - closing;
+  const double drift = random.uniform(0.0, 0.5);
+  a.velocity = closing + drift * random.direction(), b.velocity = a.velocity - closing;
   a.position = place - a.velocity * time;
   b.position = place + (a.radius + b.radius) * normal - b.velocity * time;
   trial.pucks.push_back(a), trial.pucks.push_back(b);

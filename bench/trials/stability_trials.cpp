@@ -90,6 +90,20 @@ Trial cradle() {
   return trial;
 }
 
+/// Three pairs are one in the other by half to nine tenths of a radius when it begins.
+Trial overlap() {
+  Trial trial = gas(300, 0.1);
+  trial.name = "overlap", trial.about = "300 elastic discs, three of which start inside others";
+  trial.world.allow_overlap = true;
+  const Vector2 middle(0.5 * trial.world.field.length, 0.5 * trial.world.field.width);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const physics::PuckSpec& host = trial.pucks[100 * k];
+    trial.pucks[100 * k + 50].position = host.position + (1.1 + 0.2 * static_cast<double>(k)) * host.radius * (middle - host.position).normalized();
+  }
+  trial.horizon = at_frame(300);
+  return trial;
+}
+
 Trial crowd() {
   Trial trial;
   for (DiagramTrial& candidate : diagram_trials())
@@ -100,12 +114,12 @@ Trial crowd() {
   game::RandomStream random(3);
   for (int at = 0; at < 600; at += 6)
     for (std::uint32_t bat = 0; bat < trial.bats.size(); ++bat)
-      trial.pushes.push_back({at_frame(at), bat, 8.0 * Vector2(static_cast<double>(random.below(3)) - 1.0, static_cast<double>(random.below(3)) - 1.0)});
+      trial.pushes.push_back({at_frame(at), bat, 8.0 * Vector2{static_cast<double>(random.below(3)) - 1.0, static_cast<double>(random.below(3)) - 1.0}});
   return trial;
 }
 
 }  // namespace
 
-std::vector<Trial> stability_trials() { return {fast(), dense(), collapse(), post(), wedge(), corner(), mass_ratio(), cradle(), crowd()}; }
+std::vector<Trial> stability_trials() { return {fast(), dense(), collapse(), post(), wedge(), corner(), mass_ratio(), cradle(), overlap(), crowd()}; }
 
 }  // namespace rink::accuracy

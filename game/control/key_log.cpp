@@ -14,6 +14,7 @@ namespace rink::game {
 namespace {
 
 constexpr const char* version_line = "rink-keys 1";
+constexpr double time_max = 1e9;  // s, as in scenes (docs/scenes.md, "Limits")
 constexpr std::array<std::string_view, 4> input_names{"down", "up", "enter", "leave"};
 
 bool has_key(InputKind kind) { return kind == InputKind::key_down || kind == InputKind::key_up; }
@@ -37,6 +38,15 @@ std::string hexadecimal(std::uint64_t number) {
   std::array<char, 17> digits;
   std::snprintf(digits.data(), digits.size(), "%016" PRIx64, number);
   return digits.data();
+}
+
+/// For messages: the beginning of what stands there, and no byte that a terminal would obey.
+std::string printable(const std::string& text) {
+  constexpr std::size_t shown_max = 60;
+  std::string shown = text.substr(0, shown_max);
+  for (char& byte : shown)
+    if (static_cast<unsigned char>(byte) < 0x20 || static_cast<unsigned char>(byte) > 0x7e) byte = '?';
+  return text.size() > shown_max ? shown + "..." : shown;
 }
 
 /// FNV-1a (Fowler, Noll and Vo) over lines with their ends.
@@ -83,7 +93,7 @@ class Reader {
   }
 
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
-    throw SceneError(name_ + ":" + std::to_string(line_number_) + ": found \"" + found + "\", expected " + expected);
+    throw SceneError(name_ + ":" + std::to_string(line_number_) + ": found \"" + printable(found) + "\", expected " + expected);
   }
 
   template <class Number, class... Base>
@@ -99,7 +109,8 @@ class Reader {
       log_.scene_text += line_.substr(std::min(line_.size(), line_.find('|') + 2)) + '\n';
       return true;
     }
-    if (key != "scene" && key != "seed" && key != "bats" && key != "fingerprint" && key != "until" && key != "hash") return false;
+    constexpr std::array<std::string_view, 8> known{"scene", "seed", "bats", "bat_count", "puck_count", "fingerprint", "until", "hash"};
+    if (std::ranges::find(known, key) == known.end()) return false;
     if (key == "scene") {
       const std::size_t start = line_.find_first_not_of(" \t", line_.find("scene") + 5);
       log_.scene = start == std::string::npos ? "" : line_.substr(start);
@@ -108,6 +119,8 @@ class Reader {
     if (words.size() != 2) refuse(line_, key + " and one number");
     if (key == "seed") log_.seed = require<std::uint64_t>(words[1], "a whole number");
     if (key == "bats") log_.bats = require<std::uint32_t>(words[1], "a whole number");
+    if (key == "bat_count") log_.bat_count = require<std::uint32_t>(words[1], "a whole number");
+    if (key == "puck_count") log_.puck_count = require<std::uint32_t>(words[1], "a whole number");
     if (key == "hash") log_.hash = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
     if (key == "until") log_.until = time_of(words[1]);
     if (key == "fingerprint") log_.fingerprint = require<std::uint64_t>(words[1], "up to 16 hexadecimal digits", 16);
@@ -116,7 +129,7 @@ class Reader {
 
   double time_of(const std::string& word) const {
     const double time = require<double>(word, "scene, seed, bats, fingerprint, until, hash, end, or a time in seconds");
-    if (!std::isfinite(time) || time < 0.0) refuse(word, "a time of 0 s or more");
+    if (!(time >= 0.0 && time <= time_max)) refuse(word, "a time from 0 to 1e9 s");
     return time;
   }
 
@@ -175,6 +188,8 @@ class Writer {
     line("scene " + log.scene);
     line("seed " + std::to_string(log.seed));
     if (log.bats) line("bats " + std::to_string(*log.bats));
+    if (log.bat_count) line("bat_count " + std::to_string(*log.bat_count));
+    if (log.puck_count) line("puck_count " + std::to_string(*log.puck_count));
     if (log.fingerprint) line("fingerprint " + hexadecimal(*log.fingerprint));
     if (log.until) line("until " + exact(*log.until));
     if (log.hash) line("hash " + hexadecimal(*log.hash));

@@ -19,6 +19,7 @@ struct KeyLog {
   std::string scene;                         ///< as given to load_scene
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> bats;         ///< of the scaled scene
+  std::optional<std::uint32_t> bat_count{}, puck_count{};  ///< of a scene with so many on the same field (with_count)
   std::optional<std::uint64_t> fingerprint;  ///< of the scene
   std::optional<double> until;               ///< how far it was played [s]
   std::optional<std::uint64_t> hash;         ///< of the game at `until`, on the exact engine

@@ -22,6 +22,7 @@ using namespace rink;
 
 constexpr int bad_input = 2;
 constexpr double frames_max = 1e12;
+constexpr double until_max = 1e9;  // s, as in scenes
 
 struct Options {
   std::string scene, keys, states, events, summary, record;
@@ -157,6 +158,7 @@ int main(int argc, char** argv) {
   app.add_option("--until", options.until, "simulated time at which to stop [s]")->required()->check([](const std::string& text) -> std::string {
     double until = 0.0;
     if (!CLI::detail::lexical_cast(text, until) || !std::isfinite(until) || until < 0.0) return text + ": expected a finite time of 0 s or more, for time neither runs backwards nor for ever";
+    if (until > until_max) return text + ": expected at most 1e9 s, for beyond that a clock in doubles no longer tells an impact from the next";
     return {};
   });
   CLI::Option* keys = app.add_option("--keys", options.keys, "a recorded key log to play (default: the scene's scripted keys only)");

@@ -23,7 +23,12 @@ void show_game(const Game& game, MatchSight& sight) {
   sight.things.clear();
   for (const Entity& entity : game.entities()) {
     if (entity.kind == physics::BodyKind::puck && !game.simulator().is_in_play(entity.id) && !game.is_over()) continue;
-    sight.things.push_back({.id = entity.id.index, .kind = entity.kind, .team = entity.team, .position = game.position(entity.id), .velocity = game.velocity(entity.id), .half_extent = entity.half_extent});
+    sight.things.push_back({.id = entity.id.index,
+                            .kind = entity.kind,
+                            .team = entity.team,
+                            .position = game.position(entity.id),
+                            .velocity = game.velocity(entity.id),
+                            .half_extent = entity.half_extent});
   }
 }
 

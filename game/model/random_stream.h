@@ -24,7 +24,8 @@ class RandomStream {
   /// A point within the unit disc, centre excluded. By rejection, which needs no sine.
   physics::Vector2 in_disc() {
     while (true) {
-      const physics::Vector2 point(uniform(-1.0, 1.0), uniform(-1.0, 1.0));
+      const double y = uniform(-1.0, 1.0), x = uniform(-1.0, 1.0);  // apart: in which order arguments are evaluated is the compiler's
+      const physics::Vector2 point(x, y);
       const double square = point.squaredNorm();
       if (square > 0.0 && square <= 1.0) return point;
     }

@@ -54,7 +54,7 @@ class SceneReader {
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       if (std::count(scene_.materials.begin(), scene_.materials.end(), scene_.materials[i]) > 1) table->refuse("names", "each name once");
     table->number("restitution", everywhere, part_of_one);
-    table->number("friction", friction, from_zero);
+    table->number("friction", friction, limit::friction);
     table->number("tangential_restitution", tangential, part_of_one);
     const std::size_t count = scene_.materials.size();
     scene_.world.restitution = physics::RestitutionTable(count, everywhere);
@@ -76,7 +76,7 @@ class SceneReader {
     if (has_restitution) scene_.world.restitution.set(a, b, number);
     const bool has_tangential = pair.number("tangential_restitution", number, part_of_one);
     if (has_tangential) surfaces.tangential_restitution.set(a, b, number);
-    const bool has_friction = pair.number("friction", number, from_zero);
+    const bool has_friction = pair.number("friction", number, limit::friction);
     if (has_friction) surfaces.coefficient.set(a, b, number);
     if (!has_restitution && !has_tangential && !has_friction) pair.refuse_all("says nothing of the pair: expected restitution, friction or tangential_restitution");
     pair.finish();
@@ -100,8 +100,8 @@ class SceneReader {
     std::optional<SceneTable> table = root_.table("field");
     if (!table) throw SceneError(file_ + ":1: the scene lacks the table [field] with its length and width");
     physics::Field& field = scene_.world.field;
-    table->require_number("length", field.length, above_zero);
-    table->require_number("width", field.width, above_zero);
+    table->require_number("length", field.length, limit::field);
+    table->require_number("width", field.width, limit::field);
     table->number("goal_width", field.goal_width, {0.0, field.width});
     table->truth("bats_keep_to_half", field.bats_keep_to_half);
     read_material(*table, "material", field.wall);
@@ -111,15 +111,15 @@ class SceneReader {
   void read_drag() {
     std::optional<SceneTable> table = root_.table("drag");
     if (!table) return;
-    table->number("pucks", scene_.world.puck_drag, from_zero);
-    table->number("bats", scene_.world.bat_drag, from_zero);
+    table->number("pucks", scene_.world.puck_drag, limit::drag);
+    table->number("bats", scene_.world.bat_drag, limit::drag);
     table->finish();
   }
 
   void read_friction() {
     std::optional<SceneTable> table = root_.table("friction");
     if (!table) return;
-    table->number("pucks", scene_.world.puck_friction, from_zero);
+    table->number("pucks", scene_.world.puck_friction, limit::thrust);
     if (table->has("bats")) table->refuse("bats", "pucks only: thrust and Coulomb friction together have no closed form");
     table->finish();
   }
@@ -129,7 +129,7 @@ class SceneReader {
     if (!table) return;
     std::uint64_t goals = 0;
     if (table->whole("goals_to_win", goals, 1, 1'000'000)) scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
-    table->number("face_off_delay", scene_.rules.face_off_delay, above_zero);
+    table->number("face_off_delay", scene_.rules.face_off_delay, limit::delay);
     table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, 1.0, true});
     table->finish();
   }
@@ -144,8 +144,8 @@ class SceneReader {
 
   void read_post(SceneTable& table) {
     Post post{read_name(table, "post", scene_.placed.posts.size()), {}};
-    table.require_vector("position", post.body.position);
-    table.require_number("radius", post.body.radius, from_zero);
+    table.require_vector("position", post.body.position, limit::position);
+    table.require_number("radius", post.body.radius, {0.0, limit::field_max});
     read_material(table, "material", post.body.material);
     table.finish();
     scene_.placed.posts.push_back(post);
@@ -154,11 +154,11 @@ class SceneReader {
   void read_bat(SceneTable& table) {
     Bat bat;
     bat.name = read_name(table, "bat", scene_.placed.bats.size());
-    table.require_vector("position", bat.body.position);
-    table.vector("velocity", bat.body.velocity);
-    table.require_vector("half_extent", bat.body.half_extent, above_zero);
-    table.number("mass", bat.body.mass, above_zero);
-    table.number("thrust", bat.thrust, from_zero);
+    table.require_vector("position", bat.body.position, limit::position);
+    table.vector("velocity", bat.body.velocity, limit::velocity);
+    table.require_vector("half_extent", bat.body.half_extent, limit::size);
+    table.number("mass", bat.body.mass, limit::mass);
+    table.number("thrust", bat.thrust, limit::thrust);
     read_material(table, "material", bat.body.material);
     bat.team = bat.body.position.x() < scene_.world.field.length / 2 ? Team::left : Team::right;
     table.choice<Team>("team", bat.team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}});
@@ -169,12 +169,12 @@ class SceneReader {
 
   void read_puck(SceneTable& table) {
     Puck puck{read_name(table, "puck", scene_.placed.pucks.size()), {}};
-    table.require_vector("position", puck.body.position);
-    table.vector("velocity", puck.body.velocity);
-    table.number("radius", puck.body.radius, above_zero);
-    table.number("mass", puck.body.mass, above_zero);
+    table.require_vector("position", puck.body.position, limit::position);
+    table.vector("velocity", puck.body.velocity, limit::velocity);
+    table.number("radius", puck.body.radius, limit::size);
+    table.number("mass", puck.body.mass, limit::mass);
     read_material(table, "material", puck.body.material);
-    if (table.number("spin", puck.body.spin) && !scene_.world.surface_friction) table.refuse("spin", "friction above 0 in [materials], for without it no impact feels spin");
+    if (table.number("spin", puck.body.spin, limit::spin) && !scene_.world.surface_friction) table.refuse("spin", "friction above 0 in [materials], for without it no impact feels spin");
     table.finish();
     scene_.placed.pucks.push_back(puck);
   }
@@ -186,8 +186,8 @@ class SceneReader {
     table.choice<BodyKind>("kind", population.kind, {{"puck", BodyKind::puck}, {"bat", BodyKind::bat}, {"post", BodyKind::post}});
     population.name = read_name(table, (kind + "s").c_str(), scene_.populations.size());
     read_count(table, population);
-    if (population.kind != BodyKind::bat) table.span("radius", population.radius_min, population.radius_max, population.kind == BodyKind::puck ? above_zero : from_zero);
-    if (population.kind != BodyKind::post) table.number("mass", population.mass, above_zero);
+    if (population.kind != BodyKind::bat) table.span("radius", population.radius_min, population.radius_max, population.kind == BodyKind::puck ? limit::size : Range{0.0, limit::field_max});
+    if (population.kind != BodyKind::post) table.number("mass", population.mass, limit::mass);
     if (population.kind == BodyKind::puck) read_speeds(table, population);
     if (population.kind == BodyKind::bat) read_bats(table, population);
     read_material(table, "material", population.material);
@@ -206,14 +206,14 @@ class SceneReader {
   }
 
   void read_speeds(SceneTable& table, Population& population) {
-    table.number("mean_speed", population.mean_speed, from_zero);
+    table.number("mean_speed", population.mean_speed, limit::speed);
     table.choice<SpeedDistribution>("speeds", population.speeds,
                                     {{"fixed", SpeedDistribution::fixed}, {"uniform", SpeedDistribution::uniform}, {"maxwell", SpeedDistribution::maxwell}});
   }
 
   void read_bats(SceneTable& table, Population& population) {
-    table.vector("half_extent", population.half_extent, above_zero);
-    table.number("thrust", population.thrust, from_zero);
+    table.vector("half_extent", population.half_extent, limit::size);
+    table.number("thrust", population.thrust, limit::thrust);
     Team team = Team::none;
     if (table.choice<Team>("team", team, {{"left", Team::left}, {"right", Team::right}, {"none", Team::none}})) population.team = team;
   }
@@ -229,7 +229,7 @@ class SceneReader {
   void read_key(SceneTable& table) {
     InputEvent event;
     std::string bat;
-    table.require_number("time", event.time, from_zero);
+    table.require_number("time", event.time, limit::time);
     table.require_text("bat", bat);
     const std::vector<Bat>& bats = scene_.bodies.bats;
     const auto place = std::find_if(bats.begin(), bats.end(), [&](const Bat& candidate) { return candidate.name == bat; });

@@ -2,6 +2,8 @@
 #include "game/model/scene_table.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -15,10 +17,27 @@ std::string text_of(double number) {
   return text.str();
 }
 
-std::string text_of(const toml::node& node) {
+/// As short as reads back to the same bits, and as TOML writes it.
+std::string exact_text_of(double number) {
+  std::array<char, 32> digits;
+  const std::string text(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+  return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+}
+
+std::string whole_text_of(const toml::node& node) {
+  if (const toml::value<double>* number = node.as_floating_point()) return exact_text_of(number->get());
+  std::string all;
+  if (const toml::array* list = node.as_array()) {
+    for (const toml::node& element : *list) all += (all.empty() ? "" : ", ") + whole_text_of(element);
+    return "[" + all + "]";
+  }
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
-  std::string all = text.str();
+  return text.str();
+}
+
+std::string text_of(const toml::node& node) {
+  std::string all = whole_text_of(node);
   std::replace(all.begin(), all.end(), '\n', ' ');
   return all.size() > 60 ? all.substr(0, 57) + "..." : all;
 }
@@ -42,11 +61,9 @@ std::string at(const std::string& file, const toml::source_region& source) { ret
 }  // namespace
 
 std::string Range::text() const {
-  const bool is_bounded_below = least > std::numeric_limits<double>::lowest(), is_bounded_above = most < std::numeric_limits<double>::max();
-  std::string text = is_bounded_below ? (is_open ? "above " : "from ") + text_of(least) : "that is finite";
-  if (is_bounded_above) text += " to " + text_of(most);
-  else if (is_bounded_below && !is_open) text += " up";
-  return text;
+  const std::string from = (is_open ? "above " : "from ") + text_of(least);
+  if (most < std::numeric_limits<double>::max()) return from + " to " + text_of(most);
+  return is_open ? from : from + " up";
 }
 
 const toml::node* SceneTable::find(const char* key) {

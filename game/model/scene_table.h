@@ -18,7 +18,7 @@ namespace rink::game {
 
 /// The numbers from `least` to `most`, or those above `least` only.
 struct Range {
-  double least = std::numeric_limits<double>::lowest();
+  double least = 0.0;
   double most = std::numeric_limits<double>::max();
   bool is_open = false;  ///< `least` itself is not allowed
 
@@ -26,10 +26,24 @@ struct Range {
   std::string text() const;
 };
 
-inline constexpr Range any_number{};
-inline constexpr Range above_zero{0.0, std::numeric_limits<double>::max(), true};
 inline constexpr Range from_zero{0.0};
 inline constexpr Range part_of_one{0.0, 1.0};
+
+/// What a scene may say, far beyond any rink: within it nothing overflows, a clock in doubles still tells impacts apart, and bodies are larger than the gap at which pressed
+/// ones count as touching, 2e-6 m (docs/scenes.md, "Limits"). A puck at 1e300 m/s would never get to the end of a second.
+namespace limit {
+inline constexpr double field_max = 1e9, speed_max = 1e6, thrust_max = 1e6, rate_max = 1e6, spin_max = 1e9, time_max = 1e9;
+inline constexpr Range field{1e-3, field_max};              ///< its sides [m]
+inline constexpr Range position{-field_max, field_max};     ///< m; whether it lies on the field is seen later
+inline constexpr Range size{1e-5, field_max};               ///< radii and half extents [m]
+inline constexpr Range mass{1e-20, 1e20};                   ///< kg
+inline constexpr Range velocity{-speed_max, speed_max}, speed{0.0, speed_max};  ///< m/s
+inline constexpr Range thrust{0.0, thrust_max};             ///< and friction with the table [m/s^2]
+inline constexpr Range drag{0.0, rate_max};                 ///< 1/s
+inline constexpr Range friction{0.0, 1e6};                  ///< of surfaces, Coulomb's coefficient
+inline constexpr Range spin{-spin_max, spin_max};           ///< rad/s
+inline constexpr Range time{0.0, time_max}, delay{1e-9, time_max};  ///< s
+}  // namespace limit
 
 /// A key that is absent leaves the value as it is; the functions that are called `require_` refuse that. Every function throws SceneError. Call `finish` when all keys
 /// were asked for: it refuses those that nobody asked for.
@@ -41,11 +55,11 @@ class SceneTable {
   bool has(const char* key) const { return table_.contains(key); }
   std::size_t line() const { return table_.source().begin.line; }
 
-  bool number(const char* key, double& into, const Range& range = any_number);
+  bool number(const char* key, double& into, const Range& range);
   bool whole(const char* key, std::uint64_t& into, std::uint64_t least, std::uint64_t most);
   bool truth(const char* key, bool& into);
   bool text(const char* key, std::string& into);
-  bool vector(const char* key, Vector2& into, const Range& range = any_number);
+  bool vector(const char* key, Vector2& into, const Range& range);
   /// One number, or two in ascending order: a span of values.
   bool span(const char* key, double& low, double& high, const Range& range);
   bool texts(const char* key, std::vector<std::string>& into);
@@ -62,7 +76,7 @@ class SceneTable {
   }
 
   void require_number(const char* key, double& into, const Range& range) { require(number(key, into, range), key, "a number " + range.text()); }
-  void require_vector(const char* key, Vector2& into, const Range& range = any_number) { require(vector(key, into, range), key, "two numbers [x, y]"); }
+  void require_vector(const char* key, Vector2& into, const Range& range) { require(vector(key, into, range), key, "two numbers [x, y]"); }
   void require_text(const char* key, std::string& into) { require(text(key, into), key, "a text"); }
 
   /// The table at `key`, if there is one.

@@ -19,6 +19,7 @@ namespace rink::game {
 inline constexpr double seconds_max = 86'400.0;  ///< longest run, warm-up or patience [s]: plans and key logs are held in memory
 inline constexpr std::uint32_t bats_max = 100'000, pucks_max = 1'000'000;
 inline constexpr std::uint32_t sweep_ticks_max = 1'000;
+inline constexpr double cell_size_min = 1e-3;  ///< of a filter's grid [m]; smaller ones do not fit into memory
 inline constexpr double view_area_max = 1e12, view_margin_max = 1e6;  ///< m^2, m
 
 /// A number from `low` to `high`. CLI11's own checks let NaN pass and print the bounds that they don't have with 309 digits.
@@ -31,6 +32,17 @@ inline CLI::Validator number_from(double low, double high) {
     return text + " is not a number " + range;
   };
   return CLI::Validator(check, range);
+}
+
+/// 0, which leaves the choice to the program, or a number from `low` to `high`.
+inline CLI::Validator zero_or_number_from(double low, double high) {
+  const CLI::Validator from = number_from(low, high);
+  const auto check = [from](const std::string& text) -> std::string {
+    double value = 0.0;
+    const std::string objection = from(text);
+    return objection.empty() || (CLI::detail::lexical_cast(text, value) && value == 0.0) ? std::string() : objection + ", nor 0";
+  };
+  return CLI::Validator(check, "0 or " + from.get_description());
 }
 
 /// Troubles go to the standard error as "command: trouble"; spdlog's own choice would mix them with the report on the standard output.

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -12,6 +13,7 @@
 
 #include "game/control/key_log.h"
 #include "game/control/match_records.h"
+#include "game/control/replay.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
@@ -252,6 +254,15 @@ void require_room(const game::ServeOptions& options, const game::Scene& scene) {
   game::require_writable("--evidence", options.evidence);
 }
 
+/// All that it takes to play the game again up to now and to compare the hash.
+game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene, const game::Server& server) {
+  game::KeyLog log = game::log_of(server.game(), scene, game::scene_text(choice.scene), server.record());
+  log.scene = choice.scene;
+  if (choice.bat_count > 0) log.bat_count = choice.bat_count;
+  if (choice.puck_count > 0) log.puck_count = choice.puck_count;
+  return log;
+}
+
 game::ExitStatus serve(game::ServeOptions& options) {
   std::string federation = "rink", fom_path = game::fom_file();
   if (!options.federation_file.empty()) {
@@ -280,19 +291,16 @@ game::ExitStatus serve(game::ServeOptions& options) {
   const bool is_complete = process.start();
   if (is_complete) process.run();
   Json report = process.report();
-  std::optional<game::ServerEvidence> evidence = process.evidence(choice);  // before the players leave, for the hash is of now
+  // Both before the players leave, for the hash is of now.
+  std::optional<game::ServerEvidence> evidence = process.evidence(choice);
+  const game::KeyLog log = options.record.empty() || !options.hosted.empty() ? game::KeyLog{} : record_of(choice, scene, process.server());
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
   process.end();
   game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (evidence) game::write_evidence(options.evidence, *evidence);
-  if (!options.record.empty() && options.hosted.empty()) {
-    game::KeyLog log = game::key_log_for(scene);
-    log.scene = options.scene;
-    log.events = process.server().record();
-    game::write_key_log(options.record, log);
-  }
+  if (!options.record.empty() && options.hosted.empty()) game::write_key_log(options.record, log);
   if (is_interrupted) return game::ExitStatus::interrupted;
   if (!is_complete) {
     spdlog::error("{} of {} players came within {} s", process.server().player_count(), options.clients, options.patience_s);

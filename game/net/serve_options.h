@@ -35,7 +35,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--address", options.address, "to listen on")->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
-  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(number_from(0.0, 1e6))->capture_default_str();
+  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();

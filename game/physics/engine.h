@@ -197,7 +197,7 @@ class BasicEngine {
   bool collide_freely(std::uint32_t body, Partner partner, Real time);
   void collide(std::uint32_t body, Partner partner, Real time);
   void collide_ordered(std::uint32_t body, Partner partner, Real time);
-  void bounce(const Contact& contact, Real approach, Real restitution, Real time);
+  void bounce(const Contact& contact, Real restitution, Real time);
   bool is_rough() const { return spec_.surface_friction.has_value(); }
   void rub(const Contact& contact, Real normal_impulse);
   void count_impact(std::uint32_t body, Partner partner, Real time);

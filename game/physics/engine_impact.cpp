@@ -55,18 +55,16 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b, by = b.y + b.vy * elapsed_b;
   const Real x = ax - bx, y = ay - by;
   if (x == 0.0 || y == 0.0) return false;  // in line with an axis they might come to rest on each other
-  const Real distance = std::sqrt(x * x + y * y), nx = x / distance, ny = y / distance;
-  const Real approach = nx * (b.vx - a.vx) + ny * (b.vy - a.vy);
-  if (!(approach >= rest_speed)) return false;
+  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy), length_max = std::abs(x) + std::abs(y);
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
-  if (!(approach > 1.01 * separation_min<Real> * speed_max)) return false;
+  if (!(approach >= 1.01 * std::max<Real>(rest_speed, separation_min<Real> * speed_max) * length_max)) return false;
   note(EventKind::puck_puck, time, low, high);
   counters_.evaluations += (a.time < time) + (b.time < time);
   counters_.bodies_touched += 2;
-  const Real impulse = (approach + approach) / (a.inverse_mass + b.inverse_mass);
+  const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * (x * x + y * y));
   a.x = ax, a.y = ay, b.x = bx, b.y = by;
-  a.vx += impulse * a.inverse_mass * nx, a.vy += impulse * a.inverse_mass * ny;
-  b.vx -= impulse * b.inverse_mass * nx, b.vy -= impulse * b.inverse_mass * ny;
+  a.vx += impulse * a.inverse_mass * x, a.vy += impulse * a.inverse_mass * y;
+  b.vx -= impulse * b.inverse_mass * x, b.vy -= impulse * b.inverse_mass * y;
   a.time = std::max(a.time, time), b.time = std::max(b.time, time);
   ++a.version, ++b.version;
   predict(low);
@@ -99,29 +97,33 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
     if (!is_fixed(p)) note_impact(p, time);
     if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
   }
-  bounce(c, approach, given_back, time);
+  bounce(c, given_back, time);
 }
 
-/// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding) still leaves with the least separation, or it would be found again.
+/// Newton's law of impact along the normal. A contact that no longer closes (grazing, rounding) still leaves with the least separation, or it would be found again. The impulse
+/// goes along the line of centres l as it is, (1 + e) (l . w) / ((1/m + 1/m') l . l), for a unit normal is a little too long or too short, which does not average out: it
+/// changed the energy of 1,000 pucks by -1e-19 per impact.
 template <class Real>
-void BasicEngine<Real>::bounce(const Contact& c, Real approach, Real given_back, Real time) {
+void BasicEngine<Real>::bounce(const Contact& c, Real given_back, Real time) {
   for (int axis = 0; axis < 2; ++axis) {
     if (c.gap.normal[axis] == 0.0 && !is_rough()) continue;
     dissolve(c.body, axis, time);
     if (is_body(c.partner)) dissolve(c.partner, axis, time);
   }
   const Vector2 here = velocity_of(c.body), there = velocity_of(c.partner);
-  const Real separation = std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()));
+  const Vector2& line = c.gap.line;
+  const Real square = line.squaredNorm(), length = std::sqrt(square), approach = line.dot(there - here);
+  const Real separation = std::max(given_back * approach, separation_min<Real> * (here.norm() + there.norm()) * length);
   const Real own = inverse_mass(c.body), other = inverse_mass(c.partner);
-  const Real impulse = std::max<Real>(0.0, approach + separation) / (own + other);
-  if (is_rough()) return rub(c, impulse);
+  const Real impulse = std::max<Real>(0.0, approach + separation) / ((own + other) * square);
+  if (is_rough()) return rub(c, impulse * length);
   Body& b = bodies_[c.body];
-  b.vx = here.x() + impulse * own * c.gap.normal.x();
-  b.vy = here.y() + impulse * own * c.gap.normal.y();
+  b.vx = here.x() + impulse * own * line.x();
+  b.vy = here.y() + impulse * own * line.y();
   if (other == 0.0) return;
   Body& p = bodies_[c.partner];
-  p.vx = there.x() - impulse * other * c.gap.normal.x();
-  p.vy = there.y() - impulse * other * c.gap.normal.y();
+  p.vx = there.x() - impulse * other * line.x();
+  p.vy = there.y() - impulse * other * line.y();
 }
 
 /// The impulse along the normal and that of the surfaces along the tangent, which turns discs (O. R. Walton, Mechanics of Materials 16, 1993; docs/physics.md, "Spin").

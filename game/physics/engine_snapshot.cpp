@@ -49,9 +49,9 @@ bool exchange(Stream& stream, Field& field) {
 template <class Stream>
 bool exchange(Stream& stream, WorldSpec& spec) {
   auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, cell_size, queue, allow_overlap] = spec;
-  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, cell_size) && exchange_table(stream, restitution, 1.0) && exchange(stream, surface_friction) &&
-         stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) && stream.truth(allow_overlap) && puck_friction >= 0.0 &&
-         puck_drag >= 0.0 && bat_drag >= 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
+  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, cell_size) && exchange_table(stream, restitution, 1.0) &&
+         exchange(stream, surface_friction) && stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) && stream.truth(allow_overlap) &&
+         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
 }
 
 template <class Stream>

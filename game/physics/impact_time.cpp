@@ -10,12 +10,13 @@ BasicGap<Real> BasicRoundedBox<Real>::gap(const BasicVector2<Real>& offset) cons
   const BasicVector2<Real> outside(std::abs(offset.x()) - half_extent.x(), std::abs(offset.y()) - half_extent.y());
   if (outside.x() > 0.0 && outside.y() > 0.0) {
     const Real length = std::sqrt(outside.squaredNorm());
-    return {length - radius, {std::copysign(outside.x() / length, offset.x()), std::copysign(outside.y() / length, offset.y())}, -1};
+    const BasicVector2<Real> line(std::copysign(outside.x(), offset.x()), std::copysign(outside.y(), offset.y()));
+    return {length - radius, line / length, -1, line};
   }
   const int face = outside.x() >= outside.y() ? 0 : 1;
   BasicVector2<Real> normal(0.0, 0.0);
   normal[face] = offset[face] < 0.0 ? -1.0 : 1.0;
-  return {outside[face] - radius, normal, face};
+  return {outside[face] - radius, normal, face, normal};
 }
 
 template <class Real>

@@ -38,6 +38,7 @@ struct BasicGap {
   Real distance = 0.0;                  ///< m
   BasicVector2<Real> normal{1.0, 0.0};  ///< unit, from A to B
   int face = -1;                        ///< the axis of the face that is touched, 0 or 1; -1 for rounded contact
+  BasicVector2<Real> line{1.0, 0.0};    ///< along the normal, as it was before it was divided by its length: an impulse along it knows nothing of that rounding
 };
 using Gap = BasicGap<double>;
 
@@ -56,7 +57,7 @@ template <class Real>
 struct BasicHalfPlane {
   BasicVector2<Real> normal{1.0, 0.0};
   Real limit = 0.0;
-  BasicGap<Real> gap(const BasicVector2<Real>& offset) const { return {normal.dot(offset) - limit, normal, normal.x() != 0.0 ? 0 : 1}; }
+  BasicGap<Real> gap(const BasicVector2<Real>& offset) const { return {normal.dot(offset) - limit, normal, normal.x() != 0.0 ? 0 : 1, normal}; }
 };
 using HalfPlane = BasicHalfPlane<double>;
 

@@ -25,11 +25,11 @@ double fold_count(double y, double low, double high) { return std::abs(std::floo
 
 Chaser::Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed, const Skill& skill)
     : rules_(rules), seat_(seat), skill_(skill), attacks_right_(seat.team != Team::right), reach_(reach_of(rules, seat)), random_(seed, seat.number), hands_(skill.delay),
-      decision_(physics::warp(decision_period, rules.bat_drag)), delay_(physics::warp(decision_period * skill.delay, rules.puck_drag)) {
+      decision_(physics::warp(decision_period, rules.bat_drag)), delay_{0.0, decision_period * skill.delay, {}, physics::warp(decision_period * skill.delay, rules.puck_drag)} {
   if (!attacks_right_) reach_ = {turned({reach_.high.x(), reach_.low.y()}), turned({reach_.low.x(), reach_.high.y()})};
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const double ahead = decision_period * static_cast<double>(k < fine_count ? k + 1 : 2 * k + 2 - fine_count);
-    spans_[k] = {ahead, physics::warp(ahead, rules.bat_drag), physics::warp(ahead + decision_period * skill.delay, rules.puck_drag)};
+    spans_[k] = {ahead, ahead + delay_.puck_ahead, physics::warp(ahead, rules.bat_drag), physics::warp(ahead + delay_.puck_ahead, rules.puck_drag)};
   }
 }
 
@@ -38,6 +38,8 @@ KeysHeld Chaser::decide(const PlayerView& view, double) {
   const bool is_idle = skill_.effort < 1.0 && random_.uniform() >= skill_.effort;
   return hands_.hold(is_idle ? KeysHeld{} : keys_for(view), view.velocity, random_);
 }
+
+physics::WarpedTime Chaser::flight(const Vector2& puck_velocity, const Span& span) const { return under_friction(span.puck, span.puck_ahead, puck_velocity, rules_); }
 
 /// The keys in the pipeline still move the bat before new ones do.
 void Chaser::foresee_bat(const PlayerView& view, Sight& sight) const {
@@ -99,7 +101,7 @@ bool Chaser::is_within_reach(const Sight& sight) const { return sight.puck.x() -
 
 std::optional<Chaser::Shot> Chaser::best_shot(const Sight& sight) const {
   std::optional<Shot> best;
-  const double gap = sight.puck.x() + sight.puck_velocity.x() * delay_.s - sight.bat.x() - seat_.half_extent.x() - sight.radius;
+  const double gap = sight.puck.x() + sight.puck_velocity.x() * flight(sight.puck_velocity, delay_).s - sight.bat.x() - seat_.half_extent.x() - sight.radius;
   if (gap < -0.5 * sight.radius) return best;  // it would have to be met from the front
   for (const Span& span : spans_) {
     std::optional<Shot> shot = shot_at(sight, span);
@@ -114,14 +116,15 @@ std::optional<Chaser::Shot> Chaser::best_shot(const Sight& sight) const {
 /// The shot from a contact after `span`, if thrust can bring the bat's front there by then and the bat is the faster one.
 std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span) const {
   const double low = sight.radius, high = rules_.field.width - sight.radius;
-  const Vector2 flight = sight.puck + sight.puck_velocity * span.puck.s;
+  const physics::WarpedTime flown = flight(sight.puck_velocity, span);
+  const Vector2 there = sight.puck + sight.puck_velocity * flown.s;
   const double sure = 0.9 * rules_.thrust * span.bat.q;  // not all of the thrust: four keys give it in steps only
-  const double run = flight.x() - sight.radius - seat_.half_extent.x() - sight.bat.x() - sight.bat_velocity.x() * span.bat.s;
+  const double run = there.x() - sight.radius - seat_.half_extent.x() - sight.bat.x() - sight.bat_velocity.x() * span.bat.s;
   if (std::abs(run) > sure) return std::nullopt;  // most contacts are out of reach, which costs little to see
-  const Vector2 puck(flight.x(), folded(flight.y(), low, high));
+  const Vector2 puck(there.x(), folded(there.y(), low, high));
   if (puck.x() < low || puck.x() > rules_.field.length - low) return std::nullopt;
-  const double bounces = fold_count(flight.y(), low, high);
-  const Vector2 velocity = sight.puck_velocity * span.puck.e;
+  const double bounces = fold_count(there.y(), low, high);
+  const Vector2 velocity = sight.puck_velocity * flown.e;
   const Vector2 puck_velocity(velocity.x(), std::fmod(bounces, 2.0) == 0.0 ? velocity.y() : -velocity.y());
 
   const Vector2 drift = sight.bat + sight.bat_velocity * span.bat.s;  // without keys
@@ -153,7 +156,7 @@ double Chaser::value_of(const Vector2& place, const Vector2& velocity, double ra
 /// Where to be so that the puck lies between the bat and the opponents' end; when the puck is further back than the bat, first past it on the side that has more room.
 Vector2 Chaser::place_behind(const Sight& sight) const {
   const double clearance = 0.5 * sight.radius, side = seat_.half_extent.y() + sight.radius + clearance, back = seat_.half_extent.x() + sight.radius + clearance;
-  const Vector2 puck = sight.puck + sight.puck_velocity * spans_[3].puck.s;
+  const Vector2 puck = sight.puck + sight.puck_velocity * flight(sight.puck_velocity, spans_[3]).s;
   const double run_up = 4.0 * sight.radius;
   if (sight.bat.x() + back <= puck.x() + clearance) return {puck.x() - back - run_up, puck.y()};
   const double off = sight.bat.y() - puck.y();

@@ -33,7 +33,7 @@ class Chaser : public Player {
 
   /// What happens within `ahead` [s]: to the bat from when keys take effect, to a puck from now.
   struct Span {
-    double ahead;
+    double ahead, puck_ahead;
     physics::WarpedTime bat, puck;
   };
   /// Everything as seen by one who attacks towards larger x.
@@ -50,6 +50,7 @@ class Chaser : public Player {
   Vector2 turned(const Vector2& place) const { return attacks_right_ ? place : Vector2(rules_.field.length - place.x(), place.y()); }
   Vector2 turned_velocity(const Vector2& velocity) const { return attacks_right_ ? velocity : Vector2(-velocity.x(), velocity.y()); }
   void foresee_bat(const PlayerView& view, Sight& sight) const;
+  physics::WarpedTime flight(const Vector2& puck_velocity, const Span& span) const;
   Sight sight_of(const SeenEntity& puck, const Sight& bat) const;
   std::optional<Shot> best_shot(const Sight& sight) const;
   std::optional<Shot> shot_at(const Sight& sight, const Span& span) const;
@@ -69,7 +70,7 @@ class Chaser : public Player {
   Hands hands_;
   std::array<Span, fine_count + coarse_count> spans_;
   physics::WarpedTime decision_;  ///< one decision_period, for the bat
-  physics::WarpedTime delay_;     ///< the delay, for a puck
+  Span delay_;                    ///< the delay, for a puck
   std::uint32_t chased_ = 0;      ///< id of the puck that was chosen last
   bool is_chasing_ = false;
   Vector2 misjudged_{0.0, 0.0};

@@ -47,6 +47,7 @@ double decision_phase(std::uint32_t number) {
 
 PlayerRules rules_of(const Scene& scene, std::uint32_t number) {
   PlayerRules rules{.field = scene.world.field, .puck_drag = scene.world.puck_drag, .bat_drag = scene.world.bat_drag};
+  rules.puck_friction = scene.world.puck_friction;
   if (scene.bodies.bats.empty()) return rules;
   assert(number < scene.bodies.bats.size());
   const Bat& bat = scene.bodies.bats[number];

@@ -26,6 +26,7 @@ struct PlayerRules {
   double thrust = 10.0;                    ///< of the own bat [m/s^2]
   double puck_mass = 0.1, bat_mass = 1.0;  ///< kg
   double restitution = 0.9;                ///< of a puck on a bat
+  double puck_friction = 0.0;              ///< with the table [m/s^2]
 };
 
 /// The rules of `scene` for the one who plays bat `number`, which must be there unless the scene has no bats.

@@ -39,6 +39,15 @@ KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cru
   return keys_towards(pushed_along(push_x(held), missing.x(), start, stop), pushed_along(push_y(held), missing.y(), start, stop));
 }
 
+physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead, const Vector2& velocity, const PlayerRules& rules) {
+  if (rules.puck_friction == 0.0 || velocity.isZero(0.0)) return free;
+  const double drag = rules.puck_drag, slowing = rules.puck_friction / velocity.norm();
+  const double rest = drag > 0.0 ? physics::log1p_of(drag / slowing) / drag : 1.0 / slowing;
+  if (ahead < rest) return {free.s - slowing * free.q, 0.0, free.e - slowing * free.s};
+  const physics::WarpedTime whole = physics::warp(rest, drag);
+  return {whole.s - slowing * whole.q, 0.0, 0.0};
+}
+
 KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& random) {
   assert(delay_ <= delay_max);
   wishes_[next_] = wanted;
@@ -53,7 +62,8 @@ KeysHeld Hands::hold(KeysHeld wanted, const Vector2& velocity, RandomStream& ran
   if (stuck_ < stuck_decisions) return held_ = due;
   stuck_ = 0;
   escaping_ = escape_decisions;
-  escape_ = keys_towards(static_cast<int>(random.below(3)) - 1, static_cast<int>(random.below(3)) - 1);
+  const int up = static_cast<int>(random.below(3)) - 1, right = static_cast<int>(random.below(3)) - 1;  // apart: the order of arguments is the compiler's
+  escape_ = keys_towards(right, up);
   return held_ = escape_;
 }
 

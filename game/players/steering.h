@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "game/model/random_stream.h"
+#include "game/physics/motion.h"
 #include "game/players/player.h"
 
 namespace rink::game {
@@ -26,6 +27,10 @@ int push_y(KeysHeld keys);
 
 /// The keys that drive a bat at `view` straight to `target` at no more than `cruise_speed` [m/s] and stop it there, while `held` are down.
 KeysHeld keys_to_reach(const PlayerView& view, const Vector2& target, double cruise_speed, const PlayerRules& rules, KeysHeld held);
+
+/// How far a puck of `velocity` flies `ahead` [s] and what is left of its speed, both as parts of the velocity (s and e): `free`, which is warp(ahead, drag), less what
+/// friction with the table takes.
+physics::WarpedTime under_friction(const physics::WarpedTime& free, double ahead, const Vector2& velocity, const PlayerRules& rules);
 
 /// The speed at which drag holds a bat under full thrust along one axis [m/s]; without drag, what it gains in a second.
 double top_speed(const PlayerRules& rules);

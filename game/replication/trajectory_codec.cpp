@@ -2,11 +2,13 @@
 #include "game/replication/trajectory_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <memory>
 
 #include "game/replication/attributes.h"
+#include "game/replication/input_codec.h"
 #include "game/replication/trajectory.h"
 
 namespace rink::game {
@@ -14,7 +16,8 @@ namespace {
 
 using physics::Vector2;
 
-enum Form : std::uint8_t { resting, near, wide, full };
+/// In two bits; a third one, behind that of `full`, makes it `driven`.
+enum Form : std::uint8_t { resting, near, wide, full, driven = 7 };
 constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14, wide_position_bits = 24, wide_velocity_bits = 20;
 constexpr double near_origin = 1.0;                                      // m: what leaves play is up to so far outside the field, on the low side
 constexpr double time_window = (1u << time_bits) * trajectory_time_step;  // s: 16
@@ -89,13 +92,22 @@ bool is_of_its_kind(const Vector2& drag) { return drag == Vector2::Constant(Traj
 bool is_single(double value) { return value == 0.0 || (std::abs(value) > 1e-30 && std::abs(value) < 1e30 && single_precision(value) == value); }
 bool is_single(const Vector2& value) { return is_single(value.x()) && is_single(value.y()); }
 
+/// As one or two held keys push: equally hard along both axes, or along one only.
+bool is_push(const Vector2& acceleration) {
+  const Vector2 size = acceleration.cwiseAbs();
+  return !acceleration.isZero(0.0) && (size.x() == size.y() || size.x() == 0.0 || size.y() == 0.0);
+}
+
 /// The shortest form that loses nothing.
 Form form_of(const Trajectory& t, double time) {
   const bool is_straight = t.acceleration.isZero(0.0) && is_of_its_kind(t.drag);
   if (is_straight && t.time == 0.0 && t.velocity.isZero(0.0) && is_near(t.position)) return resting;
   const bool is_timely = std::abs(time) < time_max && t.time <= time + time_ahead && t.time > time - 1.0 && fits(t.time, trajectory_time_step, 50);
   if (!is_timely || !is_single(t.acceleration)) return full;
-  if (is_straight && is_near(t.position) && fits(t.velocity, trajectory_velocity_step, near_velocity_bits)) return near;
+  if (is_of_its_kind(t.drag) && is_near(t.position) && fits(t.velocity, trajectory_velocity_step, near_velocity_bits)) {
+    if (is_straight) return near;
+    if (is_push(t.acceleration)) return driven;
+  }
   return fits(t.position, trajectory_position_step, wide_position_bits) && fits(t.velocity, trajectory_velocity_step, wide_velocity_bits) ? wide : full;
 }
 
@@ -125,6 +137,34 @@ void encode_law(const Trajectory& t, std::vector<std::byte>& coded) {
 constexpr std::size_t wide_size = 13, wide_flags_at = form_bits + time_bits + 2 * wide_position_bits + 2 * wide_velocity_bits;
 static_assert(wide_flags_at + 3 <= 8 * wide_size && form_bits + 2 * near_position_bits <= 8 * 5 && form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits == 8 * 9);
 
+constexpr unsigned push_bits = 2, push_short_at = 3 + time_bits + 2 * near_position_bits + 2 * near_velocity_bits + 2 * push_bits;
+constexpr std::size_t driven_size = 10;  // and two or four bytes of acceleration
+static_assert(push_short_at < 8 * driven_size);
+
+/// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the lower one is 0.
+void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::byte>& coded) {
+  for (const double each : {acceleration.x(), acceleration.y()}) bits.put(each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
+  const auto size = std::bit_cast<std::uint32_t>(static_cast<float>(acceleration.cwiseAbs().maxCoeff()));
+  const bool is_short = (size & 0xffffu) == 0;
+  bits.put(is_short, 1);
+  rti::Writer writer(coded);
+  auto upper = static_cast<std::uint16_t>(size >> 16), lower = static_cast<std::uint16_t>(size);
+  writer.number(upper);
+  if (!is_short) writer.number(lower);
+}
+
+bool decode_push(rti::Bytes coded, BitReader& bits, Vector2& acceleration) {
+  const std::uint64_t along[2] = {bits.get(push_bits), bits.get(push_bits)};
+  const bool is_short = bits.get(1) != 0;
+  rti::Reader reader(coded);
+  std::uint16_t upper = 0, lower = 0;
+  if (!reader.number(upper) || (!is_short && !reader.number(lower))) return false;
+  const auto size = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(upper) << 16 | lower));
+  if (!std::isfinite(size) || size <= 0.0 || along[0] > 2 || along[1] > 2) return false;
+  for (int axis = 0; axis < 2; ++axis) acceleration[axis] = along[axis] == 0 ? 0.0 : along[axis] == 1 ? size : -size;
+  return true;
+}
+
 /// The latest time of that residue that is no more than `time_ahead` after `time`.
 double resolved(std::uint64_t residue, double time) {
   const auto latest = static_cast<std::int64_t>(std::floor((time + time_ahead) / trajectory_time_step));
@@ -152,12 +192,13 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
   assert(is_sound);
   const Form form = form_of(t, time);
   BitWriter bits(coded);
-  bits.put(form, form_bits);
+  bits.put(form, form == driven ? form_bits + 1 : form_bits);
   if (form == full) return append(coded, t);
   if (form != resting) bits.put(static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)), time_bits);
   if (form == wide) put(bits, t.position, trajectory_position_step, wide_position_bits);
   else put(bits, from_middle(t.position), trajectory_position_step, near_position_bits);
   if (form == near) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits);
+  if (form == driven) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits), encode_push(t.acceleration, bits, coded);
   if (form != wide) return;
   put(bits, t.velocity, trajectory_velocity_step, wide_velocity_bits);
   bits.put(!t.acceleration.isZero(0.0), 1);
@@ -167,11 +208,13 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
 
 std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
   if (coded.empty()) return std::nullopt;
-  switch (static_cast<Form>(static_cast<std::uint8_t>(coded[0]) & 3u)) {
-    case resting: return 5;
-    case near: return 9;
-    case full: return full_size;
-    case wide: break;
+  const unsigned first = static_cast<unsigned>(coded[0]), form = (first & 7u) == driven ? first & 7u : first & 3u;
+  if (form == resting) return 5;
+  if (form == near) return 9;
+  if (form == full) return full_size;
+  if (form == driven) {
+    if (coded.size() < driven_size) return std::nullopt;
+    return driven_size + ((static_cast<unsigned>(coded[push_short_at / 8]) >> push_short_at % 8 & 1u) != 0 ? 2u : 4u);
   }
   if (coded.size() < wide_size) return std::nullopt;
   const auto flags = static_cast<unsigned>(coded[wide_flags_at / 8]) >> wide_flags_at % 8;
@@ -181,7 +224,8 @@ std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
 bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const {
   if (size(coded) != coded.size()) return false;
   BitReader bits(coded);
-  const auto form = static_cast<Form>(bits.get(form_bits));
+  auto form = static_cast<Form>(bits.get(form_bits));
+  if (form == full && bits.get(1) != 0) form = driven;
   Trajectory t;
   if (form == full) {
     if (!game::decode(coded.subspan(1), t)) return false;
@@ -192,7 +236,8 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
   if (form != resting) t.time = resolved(bits.get(time_bits), time);
   t.position = form == wide ? get(bits, trajectory_position_step, wide_position_bits)
                             : Vector2(get(bits, trajectory_position_step, near_position_bits) + Vector2::Constant(near_middle));
-  if (form != resting) t.velocity = get(bits, trajectory_velocity_step, form == near ? near_velocity_bits : wide_velocity_bits);
+  if (form != resting) t.velocity = get(bits, trajectory_velocity_step, form == wide ? wide_velocity_bits : near_velocity_bits);
+  if (form == driven && !decode_push(coded.subspan(driven_size), bits, t.acceleration)) return false;
   if (form == wide) {
     const bool has_acceleration = bits.get(1) != 0, is_own_x = bits.get(1) != 0, is_own_y = bits.get(1) != 0;
     if (!decode_law(coded.subspan(wide_size), has_acceleration, {is_own_x, is_own_y}, t)) return false;
@@ -205,6 +250,7 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
 rti::Fom load_rink_fom(const std::string& path) {
   rti::Fom fom = rti::Fom::load(path);
   fom.use_codec("Trajectory", std::make_shared<TrajectoryCodec>());
+  fom.use_codec("Input", std::make_shared<InputCodec>());
   return fom;
 }
 

@@ -8,11 +8,11 @@
 
 namespace rink::game {
 
-/// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"): rounded ones (game/replication/trajectory.h) in 5, 9 or 13 bytes and more
+/// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"): rounded ones (game/replication/trajectory.h) in 5, 9, 12 or 13 bytes and more
 /// for unusual laws, all others in full.
 class TrajectoryCodec : public rti::AttributeCodec {
  public:
-  std::string name() const override { return "rink-trajectory-1"; }
+  std::string name() const override { return "rink-trajectory-2"; }
   void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
   std::optional<std::size_t> size(rti::Bytes coded) const override;
   bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;

@@ -43,6 +43,8 @@ class Duel {
   /// `scene_text` is the file of `scene`; there must be no match_objection().
   Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings);
 
+  static constexpr std::size_t watcher = 2;  ///< the client that plays no bat
+
   /// Connects client `k` (again), or takes it away: in order, or as kill -9 does.
   void connect(std::size_t k);
   void leave(std::size_t k);
@@ -62,7 +64,7 @@ class Duel {
 
  private:
   struct Client {
-    Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model, const std::string& name);
+    Client(rti::VirtualNetwork& network, const rti::Fom& fom, const game::ObjectModel& model, const game::NetworkMatchSettings& settings);
     rti::VirtualEndpoint end;
     std::unique_ptr<game::NetworkMatch> match;
     std::optional<MatchBot> bot;
@@ -82,8 +84,8 @@ class Duel {
   rti::VirtualNetwork network_;
   rti::VirtualEndpoint server_end_{network_};
   game::Serving serving_;
-  std::array<std::unique_ptr<Client>, 2> clients_;
-  std::array<Frames, 2> frames_;
+  std::array<std::unique_ptr<Client>, 3> clients_;
+  std::array<Frames, 3> frames_;
   Frames ticks_;
   std::vector<std::unique_ptr<Client>> gone_;  ///< whose last bytes may still be under way
 };

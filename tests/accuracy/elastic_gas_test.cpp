@@ -12,7 +12,7 @@ void expect_energy_kept(std::uint64_t collisions) {
   const World& world = game.world();
   const double energy = world.kinetic_energy();
   for (int tenth = 1; world.counters().disc_impacts < collisions; ++tenth) game.advance(0.1 * tenth);
-  expect_at_most("relative drift of the energy", std::abs(world.kinetic_energy() / energy - 1.0), 1e-12);
+  expect_at_most("relative drift of the energy", std::abs(world.kinetic_energy() / energy - 1.0), 2e-14);  // with unit normals 8.5e-14 and 9.7e-13
   expect_at_most("deepest overlap [m]", world.max_overlap(), 1e-12);
 }
 

@@ -33,7 +33,8 @@ TEST(PucksThatStartInEachOther, NeitherHangNorJumpNorGainEnergy) {
   }
   expect_at_most("largest growth of the deepest overlap [m]", growth, 1e-12);
   expect_at_most("deepest overlap after 4 s [m]", world.max_overlap(), 1e-12);
-  expect_at_most("longest way in a step / the fastest puck's", jump, 1.0 + 1e-9);
+  // Somebody may be faster within a step than anybody is at its ends; to be moved out of an overlap, however, would be 10 times the fastest puck's way or more.
+  expect_at_most("longest way in a step / the fastest puck's", jump, 1.1);
   expect_at_most("relative gain of energy", gain, 1e-12);
   expect_at_most("events / (pucks s)", static_cast<double>(world.counters().events()) / (4.0 * world.body_count()), 1000.0);
 }

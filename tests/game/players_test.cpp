@@ -9,6 +9,7 @@
 #include "game/control/playing.h"
 #include "game/players/gathering.h"
 #include "game/players/hotspot.h"
+#include "game/players/steering.h"
 #include "game/players/waypoint.h"
 #include "rink_scenes.h"
 
@@ -126,6 +127,21 @@ PlayerRules wide_rules() {
   rules.bat_drag = 3.0;
   rules.thrust = 4.9;
   return rules;
+}
+
+TEST(Chaser, ExpectsPucksWhereDragAndFrictionTakeThem) {
+  for (const double drag : {0.0, 0.3})
+    for (const double friction : {0.0, 0.2, 3.0})
+      for (const double ahead : {0.05, 0.4, 2.0}) {
+        PlayerRules rules;
+        rules.puck_drag = drag, rules.puck_friction = friction;
+        physics::Motion motion{.velocity = {1.2, -0.5}, .drag = {drag, drag}};
+        if (friction > 0.0) motion.slide(friction);
+        const physics::Motion truth = motion.at(ahead);
+        const physics::WarpedTime flown = under_friction(physics::warp(ahead, drag), ahead, motion.velocity, rules);
+        EXPECT_LT((motion.velocity * flown.s - truth.position).norm(), 1e-15);
+        EXPECT_LT((motion.velocity * flown.e - truth.velocity).norm(), 1e-15);
+      }
 }
 
 TEST(Waypoint, ChoosesDestinationsUniformly) {

@@ -59,6 +59,16 @@ TEST_F(ReplayCommand, NeedsNothingButTheLog) {
   EXPECT_THAT(said_, HasSubstr("scene arena, seed 5, 8 bats"));
 }
 
+TEST_F(ReplayCommand, SaysWhatStandsInAFileThatIsNoLogWithoutItsControlCharacters) {
+  std::ofstream(file("keys")) << "\x1b[31m\x01\xff" << std::string(5000, 'x') << '\n';
+  EXPECT_EQ(replay(), 2);
+  EXPECT_THAT(said_, AllOf(HasSubstr(file("keys") + ":1: found \"?[31m??xxx"), HasSubstr("expected the line \"rink-keys 1\"")));
+  EXPECT_LT(said_.size(), 300u);
+  std::ofstream(file("keys")) << "rink-keys 1\nscene match\nuntil 1e300\n";
+  EXPECT_EQ(replay(), 2);
+  EXPECT_THAT(said_, AllOf(HasSubstr(":3: found \"1e300\""), HasSubstr("a time from 0 to 1e9 s")));
+}
+
 TEST_F(ReplayCommand, EndsWithStatus1IfTheGameEndsInAnotherHash) {
   record();
   KeyLog log = read_key_log(std::filesystem::path(file("keys")));

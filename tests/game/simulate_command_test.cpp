@@ -143,7 +143,7 @@ TEST(SimulateProgress, SaysNothingOfShortRunsALineNowAndThenOtherwiseAndOverwrit
 TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   std::ofstream(file("bad.toml")) << "[field]\nlength = 4.0\nwidth = -2.0\n";
   EXPECT_EQ(run(file("bad.toml") + " --until 1"), 2);
-  EXPECT_EQ(said_, "rink simulate: " + file("bad.toml") + ":3: field.width is -2.0: expected a number above 0\n");
+  EXPECT_EQ(said_, "rink simulate: " + file("bad.toml") + ":3: field.width is -2.0: expected a number from 0.001 to 1e+09\n");
   EXPECT_EQ(run("crowd --until inf"), 2);
   EXPECT_THAT(said_, HasSubstr("neither runs backwards nor for ever"));
   EXPECT_EQ(run("crowd --until -1"), 2);
@@ -151,6 +151,8 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   EXPECT_THAT(said_, HasSubstr("expected a finite time"));
   EXPECT_EQ(run("crowd"), 2);
   EXPECT_THAT(said_, HasSubstr("--until"));
+  EXPECT_EQ(run("crowd --until 1e300"), 2);
+  EXPECT_THAT(said_, HasSubstr("at most 1e9 s"));
   EXPECT_EQ(run("no-such-preset --until 1"), 2);
   EXPECT_EQ(run("match --until 1 --keys " + file("missing")), 2);
   EXPECT_EQ(run("match --until 1 --states " + file("no/such/folder.csv")), 2);

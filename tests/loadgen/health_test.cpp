@@ -155,12 +155,15 @@ TEST(Health, CellsThatADiscTouchesAreAsPreciseAsTheirAreaSays) {
   for (const double k : {0.25, 0.5, 1.0}) {
     Classification counts;
     std::vector<Relevant> relevant;
+    std::vector<Vector2> lows;  // the corner of each point's cell
+    for (std::uint32_t point = 0; point < gas.point_count(); ++point) lows.push_back(k * R * (gas.point(point, 0.0) / (k * R)).array().floor().matrix());
     for (std::uint32_t i = 0; i < observer_count; ++i) {
       const Vector2 at = gas.observer(i, 0.0);
+      const double x = at.x(), y = at.y();
       std::vector<std::uint32_t> chosen;
       for (std::uint32_t point = 0; point < gas.point_count(); ++point) {
-        const Vector2 low = k * R * (gas.point(point, 0.0) / (k * R)).array().floor().matrix(), nearest = at.cwiseMax(low).cwiseMin(low + Vector2::Constant(k * R));
-        if ((nearest - at).norm() <= R) chosen.push_back(point);
+        const double *low = lows[point].data(), dx = std::clamp(x, low[0], low[0] + k * R) - x, dy = std::clamp(y, low[1], low[1] + k * R) - y;
+        if (dx * dx + dy * dy <= R * R) chosen.push_back(point);
       }
       surroundings.find(at, nobody, relevant);
       counts.add(chosen, relevant);

@@ -83,6 +83,23 @@ TEST_F(ANetworkMatch, WaitsForWhoVanishedAndGoesOnWhenSomebodyTakesTheSeat) {
   EXPECT_EQ(duel->server().match()->number, 1u);
 }
 
+TEST_F(ANetworkMatch, IsSeenByAWatcherWhoCanDoNothing) {
+  const auto duel = started({.delay_s = 0.05, .players = {"chaser", "chaser"}});
+  duel->run(2.0);
+  duel->connect(Duel::watcher);
+  duel->run(3.0);
+  NetworkMatch& watcher = duel->client(Duel::watcher);
+  EXPECT_EQ(watcher.hand_count(), 0u);
+  EXPECT_EQ(watcher.sight().phase, MatchPhase::playing);
+  EXPECT_FALSE(watcher.sight().own_team);
+  EXPECT_EQ(watcher.sight().things.size(), duel->client(0).sight().things.size());
+  EXPECT_NEAR(watcher.sight().time, duel->server().game().now(), 0.1);
+  watcher.pause(true), watcher.rematch(), watcher.press(0, Key::up, true);
+  duel->run(1.0);
+  EXPECT_EQ(watcher.sight().phase, MatchPhase::playing);
+  EXPECT_TRUE(watcher.sight().notice.empty());
+}
+
 TEST_F(ANetworkMatch, IsWonByWhoStays) {
   const auto duel = started({.times = {.patience_s = 5.0}});
   duel->run(1.0);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "game/control/replay.h"
 #include "loadgen/process.h"
 
 namespace rink::game {
@@ -45,6 +46,25 @@ TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
       EXPECT_THAT(ended.words, HasSubstr("is not a number from")) << flag << ' ' << value;
     }
   }
+}
+
+TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
+  for (const char* value : {"1e-308", "0.0009"}) {
+    const Ended ended = serve({"--scene", "match", "--cell-size", value});
+    EXPECT_EQ(ended.status, 2) << value;
+    EXPECT_THAT(ended.words, testing::AllOf(HasSubstr("--cell-size"), HasSubstr("is not a number from 0.001 to 1e+06, nor 0")));
+  }
+}
+
+TEST(ServeCommand, RecordsAllThatAReplayNeedsToComeToTheSameHash) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "serve-record.keys";
+  const Ended ended = serve({"--scene", "crowd", "--bat-count", "10", "--puck-count", "30", "--seed", "4", "--clients", "0", "--duration", "0.5", "--record", file.string()});
+  ASSERT_EQ(ended.status, 0) << ended.words;
+  const KeyLog log = read_key_log(file);
+  require_complete(log, file.string());
+  EXPECT_EQ(log.until, 0.5);
+  EXPECT_EQ(replay(log, recorded_scene(log, file.string())), log.hash);
+  std::filesystem::remove(file);
 }
 
 TEST(ServeCommand, MorePlayersThanBatsEndAtOnce) {

@@ -1,10 +1,12 @@
 // Trajectories on their way: nothing is lost, whatever they are, and nothing that is no trajectory gets through.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 
 #include "game/replication/attributes.h"
+#include "game/replication/input_codec.h"
 #include "game/replication/trajectory.h"
 #include "game/replication/trajectory_codec.h"
 
@@ -80,12 +82,43 @@ TEST(TrajectoryCodec, AccelerationAndUnusualDragAreAddedOnlyWhereThereAreAny) {
   t.acceleration = {0.0, 4.0};
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
   EXPECT_EQ(size, 21u);
+  t.velocity.x() = 0.5;
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 12u) << "a thrust along one axis, which half a float can say";
+  t.acceleration = {-4.0, 4.0};
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 12u);
+  t.acceleration = {-single_precision(9.81), 0.0};
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 14u);
+  t.acceleration = {4.0, 3.0};
+  EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
+  EXPECT_EQ(size, 21u);
   t.drag.x() = 0.125;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
   EXPECT_EQ(size, 29u);
   t.position.x() = 1e-9;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
   EXPECT_EQ(size, 73u);
+}
+
+TEST(InputCodec, LosesNothingAndGrowsWithTheCount) {
+  const InputCodec codec;
+  for (const std::uint32_t count : {0u, 7u, 8u, 1023u, 1024u, 131071u, 131072u, 0xffffffffu}) {
+    for (std::uint8_t held = 0; held < 16; ++held) {
+      std::vector<std::byte> value, coded, read;
+      codec.encode(encode(value, Input{count, held}), 0.0, coded);
+      ASSERT_EQ(codec.size(coded), coded.size());
+      ASSERT_EQ(coded.size(), (static_cast<std::size_t>(std::bit_width(std::uint64_t{count} << 4 | held | 1)) + 6) / 7) << "seven bits a byte";
+      ASSERT_FALSE(codec.size(rti::Bytes(coded).first(coded.size() - 1)));
+      ASSERT_TRUE(codec.decode(coded, 0.0, read));
+      ASSERT_EQ(read, value);
+    }
+  }
+  std::vector<std::byte> read;
+  EXPECT_FALSE(codec.decode(std::vector<std::byte>(6, std::byte{0x7f}), 0.0, read)) << "more than one number";
+  const std::vector<std::byte> endless(8, std::byte{0xff});
+  EXPECT_FALSE(codec.size(endless));
 }
 
 TEST(TrajectoryCodec, RandomBytesAreRefusedOrGiveATrajectoryThatAnybodyCanFollow) {

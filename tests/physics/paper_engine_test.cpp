@@ -174,6 +174,26 @@ TEST_P(FastPucks, PassThroughAPostOnlyWhereContactsAreTestedAtTheEndsOfFrames) {
 
 INSTANTIATE_TEST_SUITE_P(Engines, FastPucks, ::testing::Values("exact", "paper", "naive"), [](const auto& engine) { return std::string(engine.param); });
 
+/// After an impact explicit Euler spends the rest r of the frame along v r, away from the wall; the others along a path that thrust bends back, into the wall again if v < a r.
+TEST(PaperEngine, CountsTheBatThatLeansOnAWallByTheSchemesNatureButKeepsItThere) {
+  std::uint64_t impacts[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    constexpr double dt = 1.0 / 60, thrust = 6.0;
+    const auto simulator = make_simulator(rink_of(4.0, 2.0, 0.9, 0.0, 3.0), {.engine = "paper", .integrator = integrator_names()[k], .dt = dt});
+    const BodyId bat = simulator->add(BatSpec{.position = {0.5, 1.0}, .half_extent = {0.05, 0.1}});
+    simulator->set_thrust(bat, {-thrust, 0.0});
+    simulator->advance(10.0);
+    const std::uint64_t before = simulator->counters().impacts();
+    simulator->advance(20.0);
+    impacts[k] = simulator->counters().impacts() - before;
+    EXPECT_LE(impacts[k], 21u * 600u);  // 20 a frame, and the one that stops it
+    EXPECT_NEAR(simulator->position(bat).x(), 0.05, 10.0 * thrust * dt * dt) << integrator_names()[k];
+    EXPECT_LT(simulator->max_overlap(), 1e-15);
+  }
+  EXPECT_EQ(integrator_names()[0], "euler");
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(impacts[k], 5 * impacts[0]) << integrator_names()[k];
+}
+
 TEST(NaiveEngine, BouncesSlowPucksAsTheOthersDoButLate) {
   const auto simulator = make_simulator(rink_of(4.0, 2.0), {.engine = "naive", .dt = 1.0 / 60});
   const BodyId left = simulator->add(PuckSpec{.position = {1.0, 1.0}, .velocity = {0.5, 0.0}}), right = simulator->add(PuckSpec{.position = {3.0, 1.0}, .velocity = {-0.5, 0.0}});

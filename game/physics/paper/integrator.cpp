@@ -58,7 +58,9 @@ Step unlimited_step(Integrator integrator, const Vector2& velocity, const Force&
 Step step(Integrator integrator, const Vector2& velocity, const Force& force, double duration) {
   Step taken = unlimited_step(integrator, velocity, force, duration);
   if (force.friction == 0.0) return taken;
-  if (taken.velocity.dot(velocity) <= 0.0) taken.velocity = Vector2(0.0, 0.0);
+  // A method whose stages lie on both sides of rest may leave the velocity as it was: friction alone stops the body within the step, whatever the stages add up to.
+  const bool comes_to_rest = velocity.norm() <= force.friction * duration;
+  if (comes_to_rest || taken.velocity.dot(velocity) <= 0.0) taken.velocity = Vector2(0.0, 0.0);
   if (taken.displacement.dot(velocity) <= 0.0) taken.displacement = Vector2(0.0, 0.0);
   return taken;
 }

@@ -3,26 +3,18 @@
 #include <cstdio>
 #include <vector>
 
+#include "game/model/random_stream.h"
 #include "game/physics/world.h"
 
 namespace {
 
 using namespace rink::physics;
+using rink::game::RandomStream;
 
-/// SplitMix64 (Steele, Lea and Flood 2014): numbers without a library.
-struct Numbers {
-  std::uint64_t state;
-  double uniform(double low, double high) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return low + (high - low) * (static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53);
-  }
-};
-
-Vector2 free_place(const auto& world, Numbers& numbers, double reach) {
+Vector2 free_place(const auto& world, RandomStream& numbers, double reach) {
   for (;;) {
-    const Vector2 place(numbers.uniform(reach, 4.0 - reach), numbers.uniform(reach, 2.0 - reach));
+    const double x = numbers.uniform(reach, 4.0 - reach), y = numbers.uniform(reach, 2.0 - reach);  // apart: the order of arguments is the compiler's
+    const Vector2 place(x, y);
     if (world.is_free(place, reach)) return place;
   }
 }
@@ -36,18 +28,21 @@ std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
   spec.puck_drag = drag;
   spec.bat_drag = 1.0;
   AnyWorld world(spec);
-  Numbers numbers{seed};
+  RandomStream numbers(seed);
   std::vector<BodyId> bats;
   for (int i = 0; i < 3; ++i) world.add(PostSpec{.position = free_place(world, numbers, 0.1), .radius = numbers.uniform(0.02, 0.1)});
   for (int i = 0; i < 5; ++i) bats.push_back(world.add(BatSpec{.position = free_place(world, numbers, 0.15), .half_extent = {0.04, 0.1}, .mass = 3.0}));
   for (int i = 0; i < 50; ++i) {
-    const Vector2 place = free_place(world, numbers, 0.04);
-    world.add(PuckSpec{.position = place, .velocity = {numbers.uniform(-1.5, 1.5), numbers.uniform(-1.5, 1.5)}, .mass = numbers.uniform(0.1, 1.0)});
+    const Vector2 place = free_place(world, numbers, 0.04), direction = numbers.direction();
+    const Vector2 velocity = direction * numbers.maxwell(1.5);
+    world.add(PuckSpec{.position = place, .velocity = velocity, .mass = numbers.uniform(0.1, 1.0)});
   }
   for (double time = 0.0; time < 4.0; time += numbers.uniform(0.0, 0.05)) {
     while (world.advance(time)) {
     }
-    world.set_thrust(bats[static_cast<std::size_t>(numbers.uniform(0.0, 5.0))], {numbers.uniform(-6.0, 6.0), numbers.uniform(-6.0, 6.0)});
+    const BodyId bat = bats[static_cast<std::size_t>(numbers.uniform(0.0, 5.0))];
+    const double ax = numbers.uniform(-6.0, 6.0), ay = numbers.uniform(-6.0, 6.0);
+    world.set_thrust(bat, {ax, ay});
   }
   return world.hash();
 }

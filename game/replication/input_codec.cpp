@@ -1,0 +1,42 @@
+// Seven bits a byte, least significant first, as all varints of the wire.
+#include "game/replication/input_codec.h"
+
+#include <cassert>
+#include <limits>
+
+#include "game/replication/attributes.h"
+
+namespace rink::game {
+namespace {
+
+constexpr unsigned held_bits = 4;
+constexpr std::size_t size_max = 6;  ///< of 36 bits
+
+}  // namespace
+
+void InputCodec::encode(rti::Bytes value, double, std::vector<std::byte>& coded) const {
+  Input input;
+  [[maybe_unused]] const bool is_sound = game::decode(value, input);
+  assert(is_sound && input.held < 1u << held_bits);
+  std::uint64_t packed = static_cast<std::uint64_t>(input.count) << held_bits | input.held;
+  rti::Writer(coded).varint(packed);
+}
+
+std::optional<std::size_t> InputCodec::size(rti::Bytes coded) const {
+  for (std::size_t k = 0; k < size_max && k < coded.size(); ++k)
+    if ((coded[k] & std::byte{0x80}) == std::byte{0}) return k + 1;
+  return std::nullopt;
+}
+
+bool InputCodec::decode(rti::Bytes coded, double, std::vector<std::byte>& value) const {
+  if (size(coded) != coded.size()) return false;
+  std::uint64_t packed = 0;
+  for (std::size_t k = 0; k < coded.size(); ++k) packed |= (static_cast<std::uint64_t>(coded[k]) & 0x7f) << 7 * k;
+  if (packed >> held_bits > std::numeric_limits<std::uint32_t>::max()) return false;
+  Input input{.count = static_cast<std::uint32_t>(packed >> held_bits), .held = static_cast<std::uint8_t>(packed & 15u)};
+  rti::Writer writer(value);
+  exchange(writer, input);
+  return true;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,19 @@
+// The form in which a bat's input travels: most have felt few keys, and nobody holds more than four.
+#pragma once
+
+#include <string>
+
+#include "rti/attribute_codec.h"
+
+namespace rink::game {
+
+/// Codes the object model's type Input: one varint, the keys held in its four low bits and the count above, so 2 bytes up to 1,023 keys and 3 up to 131,071 instead of 5.
+class InputCodec : public rti::AttributeCodec {
+ public:
+  std::string name() const override { return "rink-input-1"; }
+  void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
+  std::optional<std::size_t> size(rti::Bytes coded) const override;
+  bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;
+};
+
+}  // namespace rink::game

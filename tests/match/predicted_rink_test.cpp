@@ -1,0 +1,109 @@
+// What is foretold against the game itself: told late, in part or wrongly, it must find back, and smoothly.
+#include <gtest/gtest.h>
+
+#include "game/match/predicted_rink.h"
+#include "game/control/game.h"
+#include "tests/match/match_scene.h"
+
+namespace rink::game {
+namespace {
+
+ToldRink told_by(const Game& game) {
+  ToldRink told{.time = game.now(), .bats = {}, .pucks = {}};
+  for (const Entity& entity : game.entities()) {
+    ToldBody body{.position = game.position(entity.id), .velocity = game.velocity(entity.id), .held = {}, .is_in_play = game.simulator().is_in_play(entity.id)};
+    if (entity.player) body.held = game.keys_held(*entity.player);
+    if (entity.kind == physics::BodyKind::bat) told.bats.push_back(body);
+    if (entity.kind == physics::BodyKind::puck) told.pucks.push_back(body);
+  }
+  told.own_felt = game.input_count(0);
+  return told;
+}
+
+Vector2 bat_of(const Game& game, std::uint32_t player) { return game.position(*game.bat(player)); }
+
+TEST(APredictedRink, ShowsTheOwnBatWhereTheServerWillHaveItThoughNothingIsToldForAWhile) {
+  Game game(match_scene());
+  PredictedRink rink(match_scene(), 0);
+  rink.hear(told_by(game));
+  rink.advance(0.0, 0.0);
+  const InputEvent events[] = {{0.10, 0, InputKind::key_down, Key::up}, {0.25, 0, InputKind::key_down, Key::right}, {0.4, 0, InputKind::key_up, Key::up}};
+  for (const InputEvent& event : events) {
+    rink.advance(event.time, 0.2);
+    rink.press(event.key, event.kind == InputKind::key_down, event.time);
+    game.submit(event);
+  }
+  rink.advance(0.6, 0.2);
+  game.advance(0.6);
+  EXPECT_LT((rink.bats()[0].position - bat_of(game, 0)).norm(), 1e-12);
+  EXPECT_EQ(rink.bats()[0].time, 0.6);
+  EXPECT_EQ(rink.bats()[1].time, 0.6 - 0.2);
+  EXPECT_EQ(rink.keys_waiting(), 3u);
+  rink.hear(told_by(game));
+  EXPECT_EQ(rink.keys_waiting(), 0u);
+  EXPECT_EQ(rink.own_corrections().visible_count, 0u);
+}
+
+TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
+  Game game(match_scene());
+  PredictedRink rink(match_scene(), 0);
+  rink.hear(told_by(game));
+  rink.advance(0.0, 0.0);
+  rink.press(Key::up, true, 0.0);  // which the server never gets
+  rink.advance(0.2, 0.05);
+  const double wrong = rink.bats()[0].position.y();
+  game.submit({0.1, 0, InputKind::key_down, Key::down}), game.submit({0.1, 0, InputKind::key_up, Key::down});
+  game.advance(0.2);
+  rink.hear(told_by(game));
+  rink.advance(0.2, 0.05);
+  EXPECT_NEAR(rink.bats()[0].position.y(), wrong, 1e-9) << "no jump";
+  EXPECT_EQ(rink.own_corrections().visible_count, 1u);
+  EXPECT_GT(rink.own_corrections().greatest, 0.1);
+  double before = wrong;
+  for (double now = 0.21; now < 0.3; now += 0.01) {
+    rink.advance(now, 0.05);
+    EXPECT_LE(rink.bats()[0].position.y(), before) << "nor does it overshoot";
+    before = rink.bats()[0].position.y();
+  }
+  rink.advance(0.31, 0.05);
+  game.advance(0.31);
+  EXPECT_LT((rink.bats()[0].position - bat_of(game, 0)).norm(), 1e-9);
+}
+
+TEST(APredictedRink, ShowsAPuckAtEachBatInThatBatsOwnTime) {
+  Scene scene = match_scene();
+  scene.bodies.pucks[0].body.velocity = {0.0, 0.0};
+  for (const double x : {0.35, 1.2, 2.05}) {
+    scene.bodies.pucks[0].body.position = {x, 0.6};
+    Game game(scene);
+    PredictedRink rink(scene, 0);
+    rink.hear(told_by(game));
+    rink.advance(0.0, 0.0);
+    for (double now = 0.01; now < 1.0; now += 0.01) rink.advance(now, 0.2);
+    const double lag = rink.now() - rink.pucks()[0].time;
+    EXPECT_NEAR(lag, x < 0.4 ? 0.0 : x > 2.0 ? 0.2 : 0.1, 1e-3);
+  }
+}
+
+TEST(APredictedRink, BearsWhatNoServerShouldTell) {
+  const Scene scene = match_scene();
+  PredictedRink rink(scene, 0);
+  ToldRink told{.time = 1.0, .bats = std::vector<ToldBody>(2), .pucks = std::vector<ToldBody>(1)};
+  told.bats[0].position = {-5.0, 90.0}, told.bats[1].position = {0.1, 0.1};
+  told.pucks[0].position = {1.2, -3.0}, told.pucks[0].velocity = {100.0, -100.0};
+  rink.hear(told);
+  rink.advance(1.5, 0.1);
+  for (const ShownBody& bat : rink.bats()) EXPECT_TRUE(bat.position.allFinite());
+  told.time = 0.5;
+  rink.hear(told);
+  rink.advance(1.6, 0.1);
+  told.pucks[0].is_in_play = false, told.time = 1.6;
+  rink.hear(told);
+  rink.advance(1.7, 0.1);
+  EXPECT_TRUE(rink.pucks()[0].position.allFinite());
+  rink.rewind(1.6);
+  EXPECT_EQ(rink.now(), 1.6);
+}
+
+}  // namespace
+}  // namespace rink::game
