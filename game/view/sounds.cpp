@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 
 namespace rink::view {
 namespace {
@@ -85,6 +86,7 @@ struct Sounds::Device {
 
 Sounds::Sounds() {
   setenv("ALSOFT_LOGLEVEL", "0", 0);  // no device is no trouble
+  if (!std::filesystem::exists("/dev/snd")) setenv("ALSOFT_DRIVERS", "-alsa,", 0);  // or ALSA itself would complain on standard error
   ALCdevice* device = alcOpenDevice(nullptr);
   if (device == nullptr) return;
   device_ = std::make_unique<Device>();

@@ -1,11 +1,14 @@
 // The command rink play, run as its users run it, without a display.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
@@ -36,7 +39,7 @@ class PlayCommand : public ::testing::Test {
   /// The exit status; what was said on standard error is in `said_`.
   int play(const std::string& arguments, const std::string& script = {}) {
     std::ofstream(file("script")) << script;
-    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " " + RINK_BINARY_DIR + "/bin/rink-play " + arguments +
+    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + RINK_BINARY_DIR + "/bin/rink-play " + arguments +
                                 (script.empty() ? "" : " --offscreen --size 640x360 --script script") + " 2>err";
     const int status = std::system(command.c_str());
     std::ostringstream words;
@@ -84,6 +87,47 @@ TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
   EXPECT_EQ(play("--offscreen"), 2);
   EXPECT_EQ(play("--offscreen --screenshot a.png --size 9x9"), 2);
   EXPECT_EQ(play("--two --bot club"), 2);
+}
+
+TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
+  std::ofstream(file("altered.keys")) << "rink-keys 1\nscene match\n";
+  const std::pair<const char*, const char*> cases[] = {{"--join 127.0.0.1:1", "Connection refused"},
+                                                       {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
+                                                       {"--host 99999", "cannot host: "},
+                                                       {"--replay altered.keys", "altered.keys"},
+                                                       {"--replay missing.keys", "missing.keys"}};
+  for (const auto& [arguments, words] : cases) {
+    EXPECT_EQ(play(arguments, "0.3 end\n"), 0) << arguments;
+    EXPECT_THAT(said_, HasSubstr(words)) << arguments;
+  }
+}
+
+TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
+  ASSERT_EQ(play("--bot expert --records kept", "3.5 down w\n5 up w\n6 end\n"), 0) << said_;
+  ASSERT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
+  EXPECT_EQ(play("--replay kept/match-1.keys", "1 picture a.png\n1.2 tap right\n1.4 tap space\n1.6 picture b.png\n"), 0) << said_;
+  EXPECT_EQ(said_, "");
+  EXPECT_GT(difference(read_png(file("a.png")), read_png(file("b.png"))).mean, 0.05);
+}
+
+class PlayCommandLong : public PlayCommand {};
+
+TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
+  const std::string port = std::to_string(20'000 + getpid() % 20'000);
+  std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
+  const std::string joining = "cd " + folder_.string() + " && sleep 1 && " + RINK_BINARY_DIR + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err &";
+  ASSERT_EQ(std::system(joining.c_str()), 0);
+  ASSERT_EQ(play("--host " + port + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
+  std::ostringstream words;
+  for (int i = 0; i < 50 && words.str().empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    words.str("");
+    words << std::ifstream(file("joined_err")).rdbuf();
+  }
+  EXPECT_THAT(words.str(), HasSubstr("The match cannot go on"));
+  EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
+  EXPECT_GT(difference(read_png(file("joined.png")), read_png(file("hosted.png"))).mean, 1.0) << "each sees it from the own end";
+  std::this_thread::sleep_for(std::chrono::seconds(3));  // until the other window is closed, before its folder goes
 }
 
 }  // namespace
