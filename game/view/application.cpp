@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "game/match/replay_match.h"
@@ -18,6 +19,13 @@ const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest
   const auto wanted = sight.own_team ? physics::BodyKind::bat : physics::BodyKind::puck;
   const auto found = std::ranges::find_if(sight.things, [&](const Thing& thing) { return thing.kind == wanted && (!sight.own_team || thing.team == *sight.own_team); });
   return found != sight.things.end() ? &*found : nullptr;
+}
+
+/// Where a replay is, how fast, and what its keys do.
+Text replay_line(const game::ReplayMatch& replay) {
+  char words[160];
+  std::snprintf(words, sizeof words, "%s %.1f of %.1f s, speed %g     Space, Left, Right, Up, Down, Home", replay.is_paused() ? "stopped at" : "at", replay.sight().time, replay.end(), replay.speed());
+  return {.words = words, .y = 0.955f, .size = 0.03f, .has_plate = true};
 }
 
 }  // namespace
@@ -213,6 +221,7 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots;
   if (surroundings_.sound && !is_behind_menu) surroundings_.sound(sight.noises, settings_);
   Picture picture = picture_of(sight, interest_overlay(sight, interest_), view(sight, now_s), static_cast<double>(size.width) / size.height);
+  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) picture.texts.push_back(replay_line(*replay));
   if (is_behind_menu) {
     picture.texts.clear();
     picture.board.is_there = false;

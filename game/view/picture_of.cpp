@@ -106,6 +106,8 @@ void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Tex
   line(words);
   std::snprintf(words, sizeof words, "tick %llu   %.0f bytes/s", static_cast<unsigned long long>(link.tick), link.payload_bytes_per_s);
   line(words);
+  std::snprintf(words, sizeof words, "own bat %.0f ms ahead   %llu corrections, the last %.1f mm", link.lead_ms, static_cast<unsigned long long>(link.corrections), link.last_correction_mm);
+  line(words);
 }
 
 /// Names beside the score at the top; in perspective the board shows the score already.
