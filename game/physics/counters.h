@@ -28,6 +28,9 @@ struct Counters {
   std::uint64_t hops = 0;             ///< pressed clusters separated as one
   std::uint64_t freezes = 0;          ///< pressed clusters found in static equilibrium
   std::uint64_t stops = 0;            ///< pucks that friction brought to rest
+  std::uint64_t joint_impacts = 0;    ///< impacts at one instant that were solved as one problem; each contact that took an impulse also counts as an impact
+  std::uint64_t events_at_once_max = 0;  ///< the most events processed at one instant, a joint impact being one
+  double hop_energy = 0.0;            ///< kinetic energy that hops added to what thrust gave [J]
   std::uint64_t crossings = 0;        ///< bookkeeping: a body changed its grid cell
   std::uint64_t stale_events = 0;     ///< bookkeeping: an event whose partner had changed course
   std::uint64_t predictions = 0;      ///< pairs of bodies looked at

@@ -11,7 +11,7 @@ namespace rink::physics {
 namespace {
 
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 // Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
 
@@ -48,16 +48,18 @@ bool exchange(Stream& stream, Field& field) {
 
 template <class Stream>
 bool exchange(Stream& stream, WorldSpec& spec) {
-  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, cell_size, queue, allow_overlap] = spec;
-  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, cell_size) && exchange_table(stream, restitution, 1.0) &&
+  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, contact_time, cell_size, queue, allow_overlap] = spec;
+  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) && exchange_table(stream, restitution, 1.0) &&
          exchange(stream, surface_friction) && stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) && stream.truth(allow_overlap) &&
-         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
+         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && contact_time > 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
-  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, crossings, stale, predictions, evaluations, touched] = counters;
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, crossings, stale, predictions, evaluations, touched);
+  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched] =
+      counters;
+  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions, evaluations,
+                        touched);
 }
 
 /// Of one body, in all the arrays that have an entry for it.
@@ -85,7 +87,7 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 template <class Real>
 template <class Stream>
 bool BasicEngine<Real>::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_) || !exchange(stream, counters_)) return false;
+  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !exchange(stream, counters_)) return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);
