@@ -213,6 +213,7 @@ void BasicEngine<Real>::count_event(Real time) {
   if (time > instant_begin_ + 16.0 * std::numeric_limits<Real>::epsilon() * (1.0 + time)) {
     instant_begin_ = time;
     events_at_once_ = 0;
+    is_hopeless_ = false;
   }
   counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
 }

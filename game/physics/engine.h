@@ -219,6 +219,7 @@ class BasicEngine {
   Real joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const;
   Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
   Real joint_speed() const;
+  bool solve_joint();
   bool propagate();
   bool yield_as_one(Real restitution_max);
   bool come_to_rest();
@@ -320,6 +321,7 @@ class BasicEngine {
   std::vector<Real> column_, share_;              // and the part within
   Real instant_begin_ = -1.0;                   // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
+  bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;
   BasicSum<Real> introduced_, work_, loss_;

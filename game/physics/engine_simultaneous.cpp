@@ -40,18 +40,24 @@ template <class Real>
 bool BasicEngine<Real>::is_endless() const { return events_at_once_ % endless_events == 0; }
 
 /// The impact at hand together with all others that close at this instant among bodies that touch, directly or through others. False if there are none, or if no solution
-/// was found that keeps the energy; then nothing has changed.
+/// was found that keeps the energy; then nothing has changed, and no other is looked for until the instant is over.
 template <class Real>
 bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
-  if (is_rough() || !(gather_touching(c, time) || is_endless())) return false;
+  if (is_rough() || is_hopeless_ || !(gather_touching(c, time) || is_endless())) return false;
   velocities_before_ = joint_velocities_;
   const Real energy = joint_energy();
+  is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>));
+  if (is_hopeless_) return false;
+  ++counters_.joint_impacts;
+  apply_joint(time);
+  return true;
+}
+
+template <class Real>
+bool BasicEngine<Real>::solve_joint() {
   if (is_endless() && !yield_as_one(1.0)) return false;
   if (!propagate() && !come_to_rest()) return false;
   part_what_rounding_closes();
-  if (!(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>))) return false;
-  ++counters_.joint_impacts;
-  apply_joint(time);
   return true;
 }
 

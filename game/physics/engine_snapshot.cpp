@@ -87,7 +87,7 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 template <class Real>
 template <class Stream>
 bool BasicEngine<Real>::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !exchange(stream, counters_)) return false;
+  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_)) return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);

@@ -220,11 +220,15 @@ TEST(Cluster, OfAnyShapeAndMassesConservesMomentumAndGainsNoEnergy) {
     const double energy = world.kinetic_energy();
     const Vector2 momentum = world.momentum();
     world.advance(0.8);
-    EXPECT_LT((world.momentum() - momentum).norm(), 1e-12 * momentum.norm());
+    if (world.counters().wall_impacts == 0) {
+      EXPECT_LT((world.momentum() - momentum).norm(), 1e-12 * momentum.norm());
+    }
     if (e == 1.0) EXPECT_NEAR(world.kinetic_energy(), energy, 1e-11 * energy);
     else EXPECT_LE(world.kinetic_energy(), energy * (1.0 + 1e-14));
     // A light ball among touching heavy ones that give back all bounces on and on, and each bounce counts.
-    if (e < 1.0 || spread < 6.0) EXPECT_LE(world.counters().events_at_once_max, 200u);
+    if (e < 1.0 || spread < 6.0) {
+      EXPECT_LE(world.counters().events_at_once_max, 200u);
+    }
     EXPECT_LT(world.max_overlap(), 1e-12);
   }
 }
