@@ -58,8 +58,8 @@ template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
   auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched] =
       counters;
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions, evaluations,
-                        touched);
+  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions,
+                        evaluations, touched);
 }
 
 /// Of one body, in all the arrays that have an entry for it.
@@ -116,7 +116,8 @@ bool BasicEngine<Real>::is_sound() const {
     const Body& b = bodies_[body];
     const Build& build = builds_[body];
     if (!is_finite({b.x, b.y}) || !is_finite({b.vx, b.vy}) || !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) || !is_finite(build.thrust)) return false;
-    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) || !(build.mass > 0.0) || !(build.inverse_mass >= 0.0) || b.inverse_mass != build.inverse_mass) return false;
+    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) || !(build.mass > 0.0) || !(build.inverse_mass >= 0.0)) return false;
+    if (b.inverse_mass != build.inverse_mass) return false;
     if (b.material >= spec_.restitution.material_count() || b.mouth > right_mouth || !(laws_[body].drag.minCoeff() >= 0.0)) return false;
   }
   const auto is_partner = [&](Partner p) { return p < count || (p >= partner::field_parts && p <= partner::halfway); };
