@@ -54,7 +54,7 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
   jams_.push_back(0);
   write_law(body);
   if (is_rough()) spins_.push_back(spin);
-  if (is_slowed()) rest_times_.push_back(infinity), slide(body);
+  if (is_slowed()) rest_times_.push_back(infinity), slowing_.emplace_back(0.0, 0.0), slide(body);
   if (spec_.accounts_energy) introduced_.add(energy_of(body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
@@ -221,8 +221,7 @@ void BasicEngine<Real>::count_event(Real time) {
 template <class Real>
 void BasicEngine<Real>::settle() {
   if (spec_.accounts_energy) enter_impacts();
-  if (is_slowed())
-    for (const std::uint32_t body : touched_) slide(body);
+  if (is_slowed()) slide_touched();
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);

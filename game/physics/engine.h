@@ -118,6 +118,7 @@ class BasicEngine {
     int axis;
     Real pull_time;  // when the contact force vanishes by drag
     Real force;      // of the last solution
+    Real turn_time;  // when the friction of pucks in the group takes another direction, or all of it has come to a stop
   };
   struct Contact {
     std::uint32_t body;
@@ -171,9 +172,21 @@ class BasicEngine {
   void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
   Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
   void touch(std::uint32_t body);
-  bool is_slowed() const { return spec_.puck_friction > 0.0; }
-  void slide(std::uint32_t body);
   void wake(std::uint32_t body, Real time);
+
+  // engine_friction.cpp
+  bool is_slowed() const { return spec_.puck_friction > 0.0; }
+  bool is_slowed(std::uint32_t body) const { return is_slowed() && bodies_[body].kind == BodyKind::puck; }
+  bool is_sliding(std::uint32_t body) const { return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0; }
+  Real own_push(std::uint32_t body, int axis) const { return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis] : builds_[body].thrust[axis]; }
+  void slide_touched();
+  void slide(std::uint32_t body);
+  std::optional<int> pushed_axis(std::uint32_t body) const;
+  bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
+  Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
+  void calm(int axis, const std::vector<std::uint32_t>& members);
+  Vector2 friction_along(const Vector2& velocity) const;
+  Real speed_lost(Real speed, Real push, Real drag) const;
 
   // engine_prediction.cpp
   void predict(std::uint32_t body);
@@ -237,6 +250,7 @@ class BasicEngine {
   void rest(const Contact& contact, Real time);
   void share(int axis, const std::vector<std::uint32_t>& members, Real time);
   void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push);
+  Real resist(const std::vector<std::uint32_t>& members, int axis);
   void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
   void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time);
   bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
@@ -245,8 +259,7 @@ class BasicEngine {
   void dissolve(std::uint32_t body, int axis, Real time);
   void release(std::uint32_t body, Real time);
   Real slide_time(const Hold& hold) const;
-  bool would_drive_pucks(const Contact& contact) const;
-  bool drives_pucks(int axis, const std::vector<std::uint32_t>& members) const;
+  bool would_push_twice(const Contact& contact) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
   void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
 
@@ -262,7 +275,10 @@ class BasicEngine {
   void part_cluster(Real separation, Real gain_max);
   Real turning() const;
   void solve_cluster(Real separation);
-  void sweep_cluster(Real separation);
+  void sweep_cluster(Real separation, Real friction = 0.0);
+  Real resist_in_cluster(Real friction);
+  Real still_speed() const;
+  Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
 
   // engine_energy.cpp: the books of energy, of worlds that keep them
   struct Expense {
@@ -297,6 +313,7 @@ class BasicEngine {
   std::vector<Rhythm> rhythms_;
   std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
   std::vector<Real> rest_times_;     // of worlds with friction: when it will have brought the body to rest
+  std::vector<Vector2> slowing_;     // likewise: its part in the acceleration of the body
   std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
@@ -310,6 +327,7 @@ class BasicEngine {
   bool is_everything_pending_ = false;
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
+  std::vector<Vector2> cluster_friction_;  // impulses per mass
   std::vector<Real> accelerations_;
   std::vector<std::uint32_t> joint_;              // bodies of the cluster or joint impact at hand
   std::vector<Vector2> joint_velocities_, trial_velocities_, velocities_before_;

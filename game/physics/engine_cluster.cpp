@@ -12,6 +12,7 @@ constexpr std::uint32_t impacts_max = 24;         // likewise, whatever their sp
 constexpr std::size_t cluster_max = 256;
 constexpr std::size_t direct_max = 96;            // contacts
 constexpr int sweeps_max = 500;
+constexpr double glancing_part = 16.0;             // of contact_time
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
@@ -54,7 +55,7 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   for (const std::uint32_t body : joint_) joint_velocities_.push_back(velocity_of(body));
   Real speed = 0.0;
   for (const Vector2& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
-  if (thrust_max == 0.0 && speed < creep_speed) {
+  if (thrust_max == 0.0 && speed < still_speed()) {
     std::fill(joint_velocities_.begin(), joint_velocities_.end(), Vector2(0.0, 0.0));
   } else {
     // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is below rounding.
@@ -62,7 +63,9 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     const Real driven = std::max(least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)), sum = driven * static_cast<Real>(touches_.size());
     Real mass = 0.0;
     for (const std::uint32_t body : joint_) mass += builds_[body].mass;
-    part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_), 0.5 * mass * sum * sum);
+    const Real glancing = glancing_speed(thrust_max, pressing, speed);
+    if (glancing > driven) part_cluster(glancing, 0.5 * mass * glancing * glancing);
+    else part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_), 0.5 * mass * sum * sum);
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     bodies_[joint_[place]].vx = joint_velocities_[place].x();
@@ -82,6 +85,21 @@ Real BasicEngine<Real>::turning() const {
     if (reach > 0.0) most = std::max(most, (joint_velocities_[c.body] - there).squaredNorm() / reach);
   }
   return most;
+}
+
+/// Pucks that nothing but their friction presses together hop further than others, as if they met for 16 `contact_time`: that presses weakly and only until they rest. During
+/// the flight friction takes more energy than the hop gives, for they are faster than twice the hop.
+template <class Real>
+Real BasicEngine<Real>::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
+  const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
+  return is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
+}
+
+/// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop within `contact_time`, and anything that merely creeps.
+template <class Real>
+Real BasicEngine<Real>::still_speed() const {
+  const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) { return is_slowed(body); });
+  return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_) : Real(creep_speed);
 }
 
 template <class Real>
@@ -161,14 +179,16 @@ void BasicEngine<Real>::solve_cluster(Real separation) {
   else sweep_cluster(separation);
 }
 
-/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at the price of poor convergence where light bodies lie between heavy ones.
+/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at the price of poor convergence where light bodies lie between heavy ones. Where
+/// `friction` is above 0, pucks resist their motion by up to that impulse per mass.
 template <class Real>
-void BasicEngine<Real>::sweep_cluster(Real separation) {
+void BasicEngine<Real>::sweep_cluster(Real separation, Real friction) {
   const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass; };
   const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * joint_speed();
   for (Touch& c : touches_) c.impulse = 0.0;
+  cluster_friction_.assign(joint_.size(), Vector2(0.0, 0.0));
   for (int sweep = 0; sweep < sweeps_max; ++sweep) {
-    Real change = 0.0;
+    Real change = friction > 0.0 ? resist_in_cluster(friction) : Real(0.0);
     for (Touch& c : touches_) {
       const Real own = yielding(c.body), other = yielding(c.other), lacking = separation - parting(c, joint_velocities_);
       const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)), step = impulse - c.impulse;
@@ -181,7 +201,24 @@ void BasicEngine<Real>::sweep_cluster(Real separation) {
   }
 }
 
-/// Brings a slow cluster whose contacts can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
+/// One sweep of static friction in sweep_cluster(); answers its largest change.
+template <class Real>
+Real BasicEngine<Real>::resist_in_cluster(Real friction) {
+  Real change = 0.0;
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    if (!is_slowed(joint_[place])) continue;
+    Vector2 resistance = cluster_friction_[place] - joint_velocities_[place];
+    const Real length = resistance.norm();
+    if (length > friction) resistance *= friction / length;
+    const Vector2 step = resistance - cluster_friction_[place];
+    joint_velocities_[place] += step;
+    cluster_friction_[place] = resistance;
+    change = std::max(change, step.norm());
+  }
+  return change;
+}
+
+/// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
 template <class Real>
 bool BasicEngine<Real>::freeze(Real thrust_max) {
   joint_velocities_.clear();
@@ -189,7 +226,8 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
     if (velocity_of(body).norm() > rest_speed_) return false;
     joint_velocities_.push_back(builds_[body].thrust);
   }
-  solve_cluster(0.0);
+  if (is_slowed()) sweep_cluster(0.0, spec_.puck_friction);
+  else solve_cluster(0.0);
   for (const Vector2& acceleration : joint_velocities_)
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
   stop_cluster();

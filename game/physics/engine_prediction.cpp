@@ -38,11 +38,11 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
   slots_[body].partner = partner::none;
   slots_[body].is_tied = false;
   predict_field(body);
+  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
   const std::uint32_t count = grid_.collect(body, candidates_.data());
   --counters_.predictions;  // of the body with itself
   predict_pairs(body, count);
-  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   enqueue(body);
 }
 
@@ -236,14 +236,17 @@ void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t ot
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = motion(low), b = motion(high);
   const Real start = std::max(a.time, b.time);
-  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, slots_[body].impact_time + Real(instant), tolerance_);
+  // What comes after the next crossing of a body on a curve is looked for then, when everybody in sight is looked at anew.
+  const Slot& slot = slots_[body];
+  const Real limit = (bodies_[body].flags & curved) != 0 ? std::min(slot.impact_time, slot.crossing_time) : slot.impact_time;
+  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, limit + Real(instant), tolerance_);
   if (time) offer(body, *time, other);
 }
 
 template <class Real>
 void BasicEngine<Real>::predict_release(std::uint32_t body) {
   for (const Hold& hold : holds_)
-    if (hold.low == body || hold.high == body) offer(body, std::min(hold.pull_time, slide_time(hold)), partner::release);
+    if (hold.low == body || hold.high == body) offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
 }
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.

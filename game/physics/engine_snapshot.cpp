@@ -11,7 +11,7 @@ namespace rink::physics {
 namespace {
 
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 // Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
 
@@ -56,9 +56,9 @@ bool exchange(Stream& stream, WorldSpec& spec) {
 
 template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
-  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched] =
-      counters;
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, joint, at_once, hop_energy, crossings, stale, predictions,
+  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations,
+         touched] = counters;
+  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions,
                         evaluations, touched);
 }
 
@@ -77,8 +77,8 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
 
 template <class Stream, class Hold>
 bool exchange_hold(Stream& stream, Hold& hold) {
-  auto& [low, high, axis, pull_time, force] = hold;
-  return stream.numbers(low, high, axis, pull_time, force);
+  auto& [low, high, axis, pull_time, force, turn_time] = hold;
+  return stream.numbers(low, high, axis, pull_time, force, turn_time);
 }
 
 }  // namespace
@@ -94,10 +94,12 @@ bool BasicEngine<Real>::exchange_state(Stream& stream) {
   for (std::size_t body = 0; body < count; ++body) {
     if (!exchange_body<Real>(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) || !stream.number(jams_[body])) return false;
   }
-  if (is_slowed()) rest_times_.resize(count);
+  if (is_slowed()) rest_times_.resize(count), slowing_.resize(count);
   if (is_rough()) spins_.resize(count);
   for (Real& time : rest_times_)
     if (!stream.number(time)) return false;
+  for (Vector2& slowing : slowing_)
+    if (!stream.numbers(slowing.x(), slowing.y())) return false;
   for (Real& spin : spins_)
     if (!stream.number(spin)) return false;
   if (!introduced_.exchange(stream) || !work_.exchange(stream) || !loss_.exchange(stream)) return false;
