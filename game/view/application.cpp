@@ -7,7 +7,20 @@
 #include <cmath>
 #include <utility>
 
+#include "game/match/replay_match.h"
+
 namespace rink::view {
+namespace {
+
+/// The own bat, the one whose interest is shown, or else the puck.
+const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest) {
+  if (!sight.own_team && interest.view_fraction > 0.0) return chosen_bat(sight, interest);
+  const auto wanted = sight.own_team ? physics::BodyKind::bat : physics::BodyKind::puck;
+  const auto found = std::ranges::find_if(sight.things, [&](const Thing& thing) { return thing.kind == wanted && (!sight.own_team || thing.team == *sight.own_team); });
+  return found != sight.things.end() ? &*found : nullptr;
+}
+
+}  // namespace
 
 Application::Application(Surroundings surroundings, const Settings& settings) : surroundings_(std::move(surroundings)), settings_(settings) {
   start({.kind = MatchWish::Kind::bots, .address = {}});
@@ -19,6 +32,7 @@ void Application::start(const MatchWish& wish) {
   match_ = std::move(match);
   wish_ = wish;
   view_ = {};
+  phase_.reset();
   follows_ = false;
 }
 
@@ -73,7 +87,9 @@ void Application::hear_key(KeyCode code, bool is_down) {
 
 /// Keys that steer the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
+  if (hear_replay(code)) return true;
   switch (code) {
+    case GLFW_KEY_TAB: ++interest_.chosen; return true;
     case GLFW_KEY_ESCAPE:
     case GLFW_KEY_P: set_paused(true); return true;
     case GLFW_KEY_C:
@@ -87,6 +103,22 @@ bool Application::hear_command(KeyCode code) {
     case GLFW_KEY_KP_ADD: view_.zoom = std::min(40.0, view_.zoom * 1.25); return true;
     case GLFW_KEY_MINUS:
     case GLFW_KEY_KP_SUBTRACT: view_.zoom = std::max(1.0, view_.zoom / 1.25); return true;
+    default: return false;
+  }
+}
+
+/// A recorded match: space stops it, left and right seek, up and down change its speed, home is its start.
+bool Application::hear_replay(KeyCode code) {
+  auto* replay = dynamic_cast<game::ReplayMatch*>(match_.get());
+  if (replay == nullptr) return false;
+  const double now = replay->sight().time;
+  switch (code) {
+    case GLFW_KEY_SPACE: replay->pause(!replay->is_paused()); return true;
+    case GLFW_KEY_LEFT: replay->seek(now - 5.0); return true;
+    case GLFW_KEY_RIGHT: replay->seek(now + 5.0); return true;
+    case GLFW_KEY_UP: replay->set_speed(std::min(8.0, 2.0 * replay->speed())); return true;
+    case GLFW_KEY_DOWN: replay->set_speed(std::max(1.0 / 16.0, 0.5 * replay->speed())); return true;
+    case GLFW_KEY_HOME: replay->rematch(); return true;
     default: return false;
   }
 }
@@ -147,12 +179,13 @@ void Application::follow_phase() {
   if (sight.phase == Phase::lost) {
     const std::string why = sight.notice;
     start({.kind = MatchWish::Kind::bots, .address = {}});
-    return explain(why);
+    return explain("The match cannot go on: " + why);
   }
   if (sight.phase == Phase::over && menu_.screen() == Menu::Screen::none && match_->hand_count() > 0) menu_.open(Menu::Screen::over);
   else if (sight.phase != Phase::over && menu_.screen() == Menu::Screen::over) menu_.open(Menu::Screen::none);
-  else if (sight.phase == Phase::paused && menu_.screen() == Menu::Screen::none) menu_.open(Menu::Screen::paused);
-  else if (sight.phase != Phase::paused && menu_.screen() == Menu::Screen::paused && match_->hand_count() > 0) menu_.open(Menu::Screen::none);
+  else if (sight.phase == Phase::paused && phase_ != Phase::paused && match_->hand_count() > 0 && menu_.screen() == Menu::Screen::none) menu_.open(Menu::Screen::paused);
+  else if (phase_ == Phase::paused && sight.phase != Phase::paused && menu_.screen() == Menu::Screen::paused) menu_.open(Menu::Screen::none);  // somebody went on
+  phase_ = sight.phase;
 }
 
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
@@ -160,9 +193,7 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   else if (sight.own_team) view_.viewpoint = *sight.own_team == game::Team::left ? Viewpoint::left_end : Viewpoint::right_end;
   else view_.viewpoint = sight.things.size() > 60 ? Viewpoint::above : Viewpoint::side;
   if (follows_) {
-    const auto wanted = sight.own_team ? physics::BodyKind::bat : physics::BodyKind::puck;
-    const auto followed = std::ranges::find_if(sight.things, [&](const Thing& thing) { return thing.kind == wanted && (!sight.own_team || thing.team == *sight.own_team); });
-    if (followed != sight.things.end()) view_.centre = followed->position.cwiseQuotient(Vector2(sight.field.length, sight.field.width));
+    if (const Thing* followed = followed_by(sight, interest_)) view_.centre = followed->position.cwiseQuotient(Vector2(sight.field.length, sight.field.width));
   } else if (view_.zoom <= 1.0) {
     view_.centre = {0.5, 0.5};
   }
@@ -181,7 +212,7 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   const MatchSight& sight = match_->sight();
   const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots;
   if (surroundings_.sound && !is_behind_menu) surroundings_.sound(sight.noises, settings_);
-  Picture picture = picture_of(sight, overlay_, view(sight, now_s), static_cast<double>(size.width) / size.height);
+  Picture picture = picture_of(sight, interest_overlay(sight, interest_), view(sight, now_s), static_cast<double>(size.width) / size.height);
   if (is_behind_menu) {
     picture.texts.clear();
     picture.board.is_there = false;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "game/view/interest_overlay.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/menu.h"
@@ -17,11 +18,11 @@ namespace rink::view {
 
 /// What the application cannot do itself. Every function may be empty but `make_match`.
 struct Surroundings {
-  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match;  ///< throws std::exception with what is to be told
-  std::function<void(bool)> set_full_screen;
-  std::function<void(const Settings&)> save_settings;
-  std::function<void(const std::vector<Noise>&, const Settings&)> sound;
-  std::function<void(const std::string&)> tell;                              ///< troubles, for the standard error
+  std::function<std::unique_ptr<MatchSource>(const MatchWish&)> make_match{};  ///< throws std::exception with what is to be told
+  std::function<void(bool)> set_full_screen{};
+  std::function<void(const Settings&)> save_settings{};
+  std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
+  std::function<void(const std::string&)> tell{};                              ///< troubles, for the standard error
 };
 
 class Application {
@@ -45,8 +46,8 @@ class Application {
   /// Of a match that was started by play(): true once it is over or gone.
   bool is_in_menu() const { return wish_.kind == MatchWish::Kind::bots; }
   const MatchSight& sight() const { return match_->sight(); }
-  /// What an experiment wants to be seen over the match.
-  void set_overlay(const Overlay& overlay) { overlay_ = overlay; }
+  /// What of interest management is to be seen over the match.
+  void set_interest(const InterestChoice& interest) { interest_ = interest; }
 
  private:
   struct HeldKey {
@@ -59,6 +60,7 @@ class Application {
   void do_wish(const MenuWish& wish);
   void hear_key(KeyCode code, bool is_down);
   bool hear_command(KeyCode code);
+  bool hear_replay(KeyCode code);
   void hear_mouse(const WindowEvent& event);
   void press(KeyCode code, const Bound& bound);
   void release(KeyCode code);
@@ -75,7 +77,8 @@ class Application {
   std::vector<HeldKey> held_;
   std::optional<Viewpoint> chosen_viewpoint_;
   ViewChoice view_;
-  Overlay overlay_;
+  InterestChoice interest_;
+  std::optional<Phase> phase_;  ///< of the last frame
   bool shows_figures_ = false, follows_ = false, is_dragging_ = false;
   double mouse_x_ = 0.0, mouse_y_ = 0.0;
   WindowSize size_;

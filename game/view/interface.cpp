@@ -20,9 +20,10 @@ constexpr std::array font_files{"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bol
 /// Line heights of small print, menus and headlines at a window 720 pixels high.
 constexpr std::array font_sizes{21.0f, 34.0f, 112.0f};
 
-constexpr std::pair<ImGuiKey_, KeyCode> mapped_keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},       {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},     {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                                         {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME},          {ImGuiKey_End, GLFW_KEY_END},          {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                                         {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Enter, GLFW_KEY_ENTER},   {ImGuiKey_Escape, GLFW_KEY_ESCAPE},    {ImGuiKey_Space, GLFW_KEY_SPACE}};
+constexpr std::pair<ImGuiKey_, KeyCode> mapped_keys[] = {
+    {ImGuiKey_Tab, GLFW_KEY_TAB},   {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
+    {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME}, {ImGuiKey_End, GLFW_KEY_END},          {ImGuiKey_Delete, GLFW_KEY_DELETE},
+    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Enter, GLFW_KEY_ENTER}, {ImGuiKey_Escape, GLFW_KEY_ESCAPE}, {ImGuiKey_Space, GLFW_KEY_SPACE}};
 
 ImU32 packed(const Colour& colour, float alpha = 1.0f) { return ImGui::ColorConvertFloat4ToU32({colour.red, colour.green, colour.blue, colour.alpha * alpha}); }
 
@@ -42,7 +43,7 @@ void set_style(float unit) {
   style.Colors[ImGuiCol_Button] = {0.13f, 0.17f, 0.26f, 1.0f};
   style.Colors[ImGuiCol_ButtonHovered] = {0.17f, 0.42f, 0.78f, 1.0f};
   style.Colors[ImGuiCol_ButtonActive] = {0.10f, 0.55f, 0.95f, 1.0f};
-  style.Colors[ImGuiCol_FrameBg] = {0.10f, 0.13f, 0.20f, 1.0f};
+  style.Colors[ImGuiCol_FrameBg] = {0.17f, 0.22f, 0.33f, 1.0f};
   style.Colors[ImGuiCol_FrameBgHovered] = {0.14f, 0.20f, 0.32f, 1.0f};
   style.Colors[ImGuiCol_FrameBgActive] = {0.14f, 0.24f, 0.40f, 1.0f};
   style.Colors[ImGuiCol_CheckMark] = {1.0f, 0.74f, 0.12f, 1.0f};
@@ -125,6 +126,9 @@ void Interface::draw(const Picture& picture) {
     const ImVec2 extent = font->CalcTextSizeA(height, 1e6f, 0.0f, text.words.c_str());
     const float part = text.align == Text::Align::left ? 0.0f : text.align == Text::Align::right ? 1.0f : 0.5f;
     const ImVec2 place(std::round(text.x * size.x - part * extent.x), std::round(text.y * size.y - 0.5f * extent.y));
+    const float around = 0.3f * height;
+    const ImVec2 low(place.x - 1.5f * around, place.y - 0.5f * around), high(place.x + extent.x + 1.5f * around, place.y + extent.y + 0.5f * around);
+    if (text.has_plate) list.AddRectFilled(low, high, packed({0.03f, 0.04f, 0.07f, 0.78f}), around);
     const float drop = std::clamp(0.04f * height, 1.0f, 3.5f * unit_);
     list.AddText(font, height, {place.x + drop, place.y + drop}, packed({0.0f, 0.0f, 0.02f, 0.75f}, text.colour.alpha), text.words.c_str());
     list.AddText(font, height, place, packed(text.colour), text.words.c_str());

@@ -14,10 +14,10 @@ namespace rink::view {
 
 /// What to play.
 struct MatchWish {
-  enum class Kind : std::uint8_t { two, bot, host, join, watch, bots };
+  enum class Kind : std::uint8_t { two, bot, host, join, watch, replay, bots };
   Kind kind = Kind::two;
   std::string strength = "club";   ///< of a bot: one of bot_strengths
-  std::string address;             ///< HOST:PORT of join and watch, PORT of host
+  std::string address;             ///< HOST:PORT of join and watch, PORT of host, the file of a replay
 };
 
 inline constexpr std::array<const char*, 3> bot_strengths{"beginner", "club", "expert"};
@@ -65,7 +65,7 @@ class Menu {
 
   Screen screen_ = Screen::main, back_ = Screen::main;
   std::string trouble_;
-  std::string address_ = "localhost:47624", port_ = "47624";
+  std::string address_ = "127.0.0.1:4711", port_ = "4711";
   std::optional<Binding> binding_;
   bool is_fresh_ = true;  ///< the first widget of this screen is to have the focus
   float unit_ = 1.0f;

@@ -2,6 +2,7 @@
 #include "game/view/picture_of.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -17,7 +18,11 @@ Colour toned(const Colour& colour, float part) {
 }
 
 Piece piece_of(const Thing& thing) {
-  Piece piece{.x = static_cast<float>(thing.position.x()), .y = static_cast<float>(thing.position.y()), .half_x = static_cast<float>(thing.half_extent.x()), .half_y = static_cast<float>(thing.half_extent.y())};
+  Piece piece;
+  piece.x = static_cast<float>(thing.position.x());
+  piece.y = static_cast<float>(thing.position.y());
+  piece.half_x = static_cast<float>(thing.half_extent.x());
+  piece.half_y = static_cast<float>(thing.half_extent.y());
   piece.velocity_x = static_cast<float>(thing.velocity.x());
   piece.velocity_y = static_cast<float>(thing.velocity.y());
   if (thing.kind == physics::BodyKind::puck) {
@@ -49,10 +54,21 @@ Scoreboard board_of(const MatchSight& sight, Viewpoint viewpoint) {
   return board;
 }
 
-std::string name_of(const MatchSight& sight, game::Team team) { return team == game::Team::left ? sight.left_name : sight.right_name; }
+/// Players of a network match have no names: one is you.
+std::string name_of(const MatchSight& sight, game::Team team) {
+  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
+  return team == game::Team::left ? sight.left_name : sight.right_name;
+}
+
+/// "RED WINS", "YOU WIN".
+std::string victory(std::string name) {
+  const bool is_you = name == "You";
+  std::ranges::transform(name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
+  return name + (is_you ? " WIN" : " WINS");
+}
 
 void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
-  const double whole = std::ceil(sight.remaining_s), part = whole - sight.remaining_s;  // part of the second that is over
+  const double whole = std::ceil(sight.remaining_s - 0.05), part = whole - sight.remaining_s;  // part of the second that is over
   Colour colour{1.0f, 0.76f, 0.18f, 1.0f};
   colour.alpha = static_cast<float>(1.0 - 0.85 * part * part);
   char words[8];
@@ -70,9 +86,9 @@ void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
   else if (sight.phase == Phase::playing && sight.scorer) headline("GOAL", score, toned(colour_of(*sight.scorer), 0.15f));
   else if (sight.phase == Phase::paused) headline("PAUSED", "", white);
   else if (sight.phase == Phase::waiting) headline("WAITING", "for the other player", white);
-  else if (sight.phase == Phase::away) headline("AWAY", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s))) + " s to come back", white);
+  else if (sight.phase == Phase::away) headline("OPPONENT LEFT", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s))) + " s to come back", white);
   else if (sight.phase == Phase::lost) headline("CONNECTION LOST", "", white);
-  else if (sight.phase == Phase::over && sight.winner) headline(name_of(sight, *sight.winner) + " WINS", score, toned(colour_of(*sight.winner), 0.15f));
+  else if (sight.phase == Phase::over && sight.winner) headline(victory(name_of(sight, *sight.winner)), score, toned(colour_of(*sight.winner), 0.15f));
 }
 
 void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Text>& texts) {
@@ -94,12 +110,13 @@ void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Tex
 
 /// Names beside the score at the top; in perspective the board shows the score already.
 void add_names(const MatchSight& sight, const ViewChoice& choice, std::vector<Text>& texts) {
+  if (!sight.goals_to_win) return;  // a crowd
   const bool is_turned = choice.viewpoint == Viewpoint::right_end;
   const game::Team first = is_turned ? game::Team::right : game::Team::left, second = is_turned ? game::Team::left : game::Team::right;
   texts.push_back({.words = name_of(sight, first), .x = 0.02f, .y = 0.045f, .size = 0.042f, .align = Text::Align::left, .colour = toned(colour_of(first), 0.2f)});
   const bool has_corner = !choice.shows_link;
   if (has_corner) texts.push_back({.words = name_of(sight, second), .x = 0.98f, .y = 0.045f, .size = 0.042f, .align = Text::Align::right, .colour = toned(colour_of(second), 0.2f)});
-  if (choice.viewpoint != Viewpoint::above || !sight.goals_to_win) return;
+  if (choice.viewpoint != Viewpoint::above) return;
   texts.push_back({.words = std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right), .y = 0.05f, .size = 0.06f, .colour = white});
 }
 
@@ -160,9 +177,11 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
   if (choice.shows_link) add_link(sight, choice, picture.texts);
   float y = 0.12f;
   for (const std::string& line : overlay.lines) {
-    picture.texts.push_back({.words = line, .x = 0.02f, .y = y, .size = 0.028f, .align = Text::Align::left, .colour = pale});
-    y += 0.034f;
+    picture.texts.push_back({.words = line, .x = 0.02f, .y = y, .size = 0.028f, .align = Text::Align::left, .colour = white});
+    y += 0.042f;
   }
+  if (choice.viewpoint == Viewpoint::above)
+    for (Text& text : picture.texts) text.has_plate = text.size < 0.1f;
   return picture;
 }
 

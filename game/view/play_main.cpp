@@ -1,15 +1,23 @@
 // rink play: the window, its clock, and the matches that the player wishes.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <thread>
 
+#include "game/control/match_records.h"
 #include "game/match/local_match.h"
+#include "game/match/replay_match.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
+#include "game/net/joined_match.h"
 #include "game/view/application.h"
+#include "game/view/host_process.h"
 #include "game/view/play_options.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
@@ -30,17 +38,79 @@ void tell(const std::string& trouble) { std::cerr << "rink play: " << trouble <<
 
 std::string bot_kind(const std::string& strength) { return strength == "club" ? "chaser" : "chaser-" + strength; }
 
-std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, std::uint64_t seed) {
+std::string records_folder(const view::PlayOptions& options) {
+  if (!options.records.empty()) return options.records;
+  if (const char* folder = std::getenv("XDG_DATA_HOME"); folder != nullptr && *folder != '\0') return std::string(folder) + "/rink/matches";
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.local/share/rink/matches";
+  return "matches";
+}
+
+/// A local match whose records are kept, also of one that is given up. A record that cannot be written is told of; the match goes on.
+class RecordedMatch final : public game::MatchSource {
+ public:
+  RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings, const std::string& folder) : match_(scene, settings), records_(folder) {}
+  ~RecordedMatch() override {
+    match_.finish();
+    keep();
+  }
+  void advance(double now_s) override {
+    match_.advance(now_s);
+    keep();
+  }
+  const game::MatchSight& sight() const override { return match_.sight(); }
+  std::uint32_t hand_count() const override { return match_.hand_count(); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void pause(bool is_wanted) override { match_.pause(is_wanted); }
+  void rematch() override { match_.rematch(); }
+
+ private:
+  void keep() {
+    for (const game::KeyLog& log : match_.take_finished()) try {
+        records_.write(log);
+      } catch (const std::exception& error) {
+        tell(error.what());
+      }
+  }
+  game::LocalMatch match_;
+  game::MatchRecords records_;
+};
+
+/// A match that is hosted here and played here: the server is there before the connection to it, and ends after it.
+class HostedMatch final : public game::MatchSource {
+ public:
+  HostedMatch(const std::string& port, const std::string& records) : host_(port, records), match_("127.0.0.1:" + port, {.name = "host"}) {}
+  void advance(double now_s) override { match_.advance(now_s); }
+  const game::MatchSight& sight() const override { return match_.sight(); }
+  std::uint32_t hand_count() const override { return match_.hand_count(); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void pause(bool is_wanted) override { match_.pause(is_wanted); }
+  void rematch() override { match_.rematch(); }
+
+ private:
+  view::HostProcess host_;
+  game::JoinedMatch match_;
+};
+
+std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
   using Kind = MatchWish::Kind;
-  const std::string hand = game::Playing::hand;
+  const std::string records = records_folder(options);
+  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, records);
+  if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())});
+  if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true});
+  if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
   const game::Scene scene = game::load_scene("match");
-  game::LocalMatchSettings settings{.seed = seed};
-  if (wish.kind == Kind::two) return std::make_unique<game::LocalMatch>(scene, settings);
-  settings.players = wish.kind == Kind::bots ? std::vector<std::string>{"chaser", "chaser"} : std::vector<std::string>{hand, bot_kind(wish.strength)};
-  if (wish.kind == Kind::bots) settings.times.countdown_s = 0.0;
-  settings.left_name = "You";
-  settings.right_name = "Bot";
-  return std::make_unique<game::LocalMatch>(scene, settings);
+  game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text("match")};
+  if (wish.kind == Kind::bots) {
+    settings.players = {"chaser", "chaser"};
+    settings.times.countdown_s = 0.0;
+    return std::make_unique<game::LocalMatch>(scene, settings);
+  }
+  if (wish.kind == Kind::bot) {
+    settings.players = {game::Playing::hand, bot_kind(wish.strength)};
+    settings.left_name = "You";
+    settings.right_name = "Bot";
+  }
+  return std::make_unique<RecordedMatch>(scene, settings, records);
 }
 
 /// The application with what it needs of the process: settings on disk, sound, standard error.
@@ -95,7 +165,7 @@ void Process::open(view::Window* window) {
   interface_ = std::make_unique<view::Interface>();
   renderer_ = std::make_unique<view::Renderer>();
   view::Surroundings surroundings;
-  surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_.seed); };
+  surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_); };
   surroundings.tell = tell;
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
@@ -108,6 +178,7 @@ void Process::open(view::Window* window) {
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
+  application_->set_interest({.cell_size = options_.cell_size, .view_fraction = options_.view_fraction, .chosen = 0});
   if (!troubles_.empty()) application_->explain(troubles_);
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
 }
@@ -141,14 +212,17 @@ void Process::run_in_window(const view::WindowSize& size) {
   }
 }
 
-/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a picture of are not drawn.
+/// Time is counted in frames, so the same script gives the same pictures; frames that nobody asks a picture of are not drawn. Who plays over a network has others to keep pace with.
 void Process::run_offscreen(const view::WindowSize& size) {
   const view::OffscreenContext context;
   const Opened opened(*this, nullptr);
   const view::Target target(size.width, size.height, 0);
+  const double start_s = now_s();
+  const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty();
   bool is_ended = false;
   for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && next_step_ < script_.size(); ++frame) {
     const double now = static_cast<double>(frame) * offscreen_frame_s;
+    if (is_shared && start_s + now > now_s()) std::this_thread::sleep_for(std::chrono::duration<double>(start_s + now - now_s()));
     const auto due = view::due_steps(script_, next_step_, now);
     bool is_seen = false;
     for (const view::ScriptStep& step : due) {
@@ -156,6 +230,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
       is_seen = is_seen || !step.picture.empty();
       is_ended = is_ended || step.is_end;
     }
+    if (is_seen) draw(size, target.framebuffer(), now, true);  // twice, for the first may be drawn as of a camera that moves
     draw(size, target.framebuffer(), now, is_seen);
     for (const view::ScriptStep& step : due)
       if (!step.picture.empty()) picture(step.picture, target.framebuffer(), size);
@@ -182,10 +257,13 @@ game::ExitStatus play(const view::PlayOptions& options) {
 }  // namespace
 
 int main(int count, char** values) {
+  std::signal(SIGPIPE, SIG_IGN);
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
   view::PlayOptions options;
   view::add_options(app, options);
-  app.footer(std::string("Example: rink play --bot club\nKeys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes, F3 shows figures, F11 fills the screen.\n") +
+  app.footer(std::string("Example: rink play --bot club\n"
+                         "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes,\n"
+                         "F3 shows figures, F11 fills the screen.\n") +
              game::exit_status_help);
   try {
     app.parse(count, values);

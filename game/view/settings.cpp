@@ -13,6 +13,7 @@
 namespace rink::view {
 namespace {
 
+constexpr const char* how_called = "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
 constexpr std::array<const char*, 2> player_tables{"left", "right"};
 
 class Reader {
@@ -62,7 +63,7 @@ class Reader {
       const auto text = node.value_exact<std::string>();
       const auto code = text ? key_code_from_name(*text) : std::nullopt;
       if (code) place = *code;
-      else trouble(node, "there is no key '" + node.value<std::string>().value_or("?") + "' for " + std::string(name.str()) + "; it stays '" + key_code_name(place).value_or("?") + "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)");
+      else trouble(node, "there is no key '" + node.value<std::string>().value_or("?") + "' for " + std::string(name.str()) + "; it stays '" + key_code_name(place).value_or("?") + how_called);
     }
   }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 
 namespace rink::view {
 namespace {
@@ -70,7 +71,7 @@ std::vector<std::int16_t> sound_of(Noise::Kind kind) {
     case Kind::face_off: return Mix(0.5).add({0.0, 990.0, 0.5, 0.16}).add({0.0, 1980.0, 0.15, 0.10}).take();
     case Kind::goal: return Mix(1.1).add({0.0, 196.0, 0.45, 0.5}).add({0.0, 293.7, 0.35, 0.5}).add({0.05, 392.0, 0.35, 0.5}).add({0.10, 587.3, 0.2, 0.4}).add_noise(0.10, 0.25).take();
     case Kind::win:
-      return Mix(1.8).add({0.0, 392.0, 0.4, 0.25}).add({0.18, 493.9, 0.4, 0.25}).add({0.36, 587.3, 0.4, 0.25}).add({0.54, 784.0, 0.5, 0.6}).add({0.54, 392.0, 0.3, 0.6}).add({0.54, 987.8, 0.25, 0.6}).take();
+      return Mix(1.8).add({0.0, 392.0, 0.4, 0.25}).add({0.18, 493.9, 0.4, 0.25}).add({0.36, 587.3, 0.4, 0.25}).add({0.54, 784.0, 0.5, 0.6}).add({0.54, 392.0, 0.3, 0.6}).take();
   }
   return {};
 }
@@ -85,6 +86,7 @@ struct Sounds::Device {
 
 Sounds::Sounds() {
   setenv("ALSOFT_LOGLEVEL", "0", 0);  // no device is no trouble
+  if (!std::filesystem::exists("/dev/snd")) setenv("ALSOFT_DRIVERS", "-alsa,", 0);  // or ALSA itself would complain on standard error
   ALCdevice* device = alcOpenDevice(nullptr);
   if (device == nullptr) return;
   device_ = std::make_unique<Device>();

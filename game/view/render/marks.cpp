@@ -8,7 +8,7 @@ namespace rink::view {
 namespace {
 
 /// As the shader counts them.
-enum class Kind : int { disc_shadow, box_shadow, streak, glow, rectangle, disc, grid };
+enum class Kind : int { disc_shadow, box_shadow, streak, glow };
 
 constexpr float shadow_reach = 0.09f;  // m; where the contact shadow has faded
 
@@ -49,24 +49,6 @@ void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& row
   if (!has_shadows) return;
   for (const Piece& piece : picture.pieces) add_shadow(piece, rows);
   for (const Piece& piece : picture.pieces) add_streak(piece, rows);
-}
-
-void add_overlay(const Picture& picture, std::vector<float>& rows) {
-  const Overlay& overlay = picture.overlay;
-  const Table& table = picture.table;
-  if (overlay.cell_size > 0.0)
-    add(rows, 0.0f, 0.0f, table.length, table.width, 0.0f, 0.0f, 0.0f, 0.0f, Kind::grid, static_cast<float>(overlay.cell_size), 0.0f, 0.0f, overlay.cell_colour);
-  for (const OverlayRectangle& rectangle : overlay.rectangles) {
-    const auto low_x = static_cast<float>(rectangle.low_x), low_y = static_cast<float>(rectangle.low_y), high_x = static_cast<float>(rectangle.high_x), high_y = static_cast<float>(rectangle.high_y);
-    const float x = 0.5f * (low_x + high_x), y = 0.5f * (low_y + high_y), half_x = high_x - x, half_y = high_y - y;
-    if (rectangle.fill.alpha > 0.0f) add(rows, low_x, low_y, high_x, high_y, x, y, half_x, half_y, Kind::rectangle, 0.0f, 0.0f, 0.0f, rectangle.fill);
-    if (rectangle.outline.alpha > 0.0f) add(rows, low_x, low_y, high_x, high_y, x, y, half_x, half_y, Kind::rectangle, 2.0f, 0.0f, 0.0f, rectangle.outline);
-  }
-  for (const OverlayDisc& disc : overlay.discs) {
-    const auto x = static_cast<float>(disc.x), y = static_cast<float>(disc.y), r = static_cast<float>(disc.radius);
-    const float reach = 1.25f * r;
-    add(rows, x - reach, y - reach, x + reach, y + reach, x, y, r, r, Kind::disc, disc.is_filled ? 0.0f : 2.0f, 0.0f, 0.0f, disc.colour);
-  }
 }
 
 }  // namespace rink::view

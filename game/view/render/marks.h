@@ -1,4 +1,4 @@
-// What lies on the table, as rows for the shader: shadows, streaks, the glow of a goal, overlays.
+// What lies on the table, as rows for the shaders: shadows, streaks, the glow of a goal; overlays.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,13 @@ namespace rink::view {
 /// Floats of a mark: the box that it may cover, its form, its manner, its colour.
 inline constexpr int mark_row[] = {4, 4, 4, 4};
 
-/// Under the pieces. `has_shadows` is false where so many pieces are seen that each is a few pixels.
+/// `has_shadows` is false where so many pieces are seen that each is a few pixels.
 void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& rows);
-/// Over the pieces.
-void add_overlay(const Picture& picture, std::vector<float>& rows);
+
+/// Floats of a corner of an overlay's triangle: see the shader.
+inline constexpr int overlay_row[] = {4, 2, 4};
+
+/// Triangles over the pieces; a pixel is `pixel` wide [m].
+void add_overlay(const Picture& picture, float pixel, std::vector<float>& rows);
 
 }  // namespace rink::view

@@ -45,6 +45,7 @@ struct Text {
   enum class Align : std::uint8_t { left, middle, right };
   Align align = Align::middle;
   Colour colour{1.0f, 1.0f, 1.0f, 1.0f};
+  bool has_plate = false;    ///< something dark behind it, where the picture is bright
 };
 
 struct Picture {

@@ -14,9 +14,11 @@ namespace rink::view {
 namespace {
 
 constexpr int sample_count = 4;
-constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4};
+constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4}, point_row[] = {3, 3, 3};
 /// From here on pieces throw no shadow: in a crowd each is a few pixels.
 constexpr std::size_t shadowed_max = 400;
+/// Discs up to this radius [pixels] are drawn as points from above, in a third of the time of instanced quads; OpenGL drops a point whole when its centre leaves the window.
+constexpr float point_radius_max = 20.0f;
 
 Eigen::Vector3f rgb(const Colour& colour) { return {colour.red, colour.green, colour.blue}; }
 
@@ -62,6 +64,18 @@ void add_piece(const Piece& piece, const Sight& sight, bool is_image, const Canv
                            piece.colour.red, piece.colour.green, piece.colour.blue, piece.accent.red, piece.accent.green, piece.accent.blue});
 }
 
+/// Is any of it seen?
+bool is_within(const Piece& piece, const Sight& sight) {
+  return std::abs(piece.x - sight.eye().x()) <= sight.right().x() + piece.half_x && std::abs(piece.y - sight.eye().y()) <= sight.up().y() + piece.half_y;
+}
+
+bool is_point(const Piece& piece, float pixel) { return piece.shape != Piece::Shape::bat && piece.half_x <= point_radius_max * pixel; }
+
+void clear_around() {
+  glClearColor(0.035f, 0.04f, 0.055f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
 }  // namespace
 
 Renderer::Renderer()
@@ -69,10 +83,16 @@ Renderer::Renderer()
       mark_program_("marks", light_source, mark_vertex, mark_fragment),
       piece_program_("pieces", light_source, piece_vertex, piece_fragment),
       plan_program_("plan", "", plan_vertex, plan_fragment),
+      point_program_("points", "", point_vertex, point_fragment),
+      flat_program_("plain table", light_source, flat_vertex, flat_fragment),
+      overlay_program_("overlay", "", overlay_vertex, overlay_fragment),
       mesh_(stage_row, false),
       marks_(mark_row, true),
       pieces_(piece_row, true),
       plan_(plan_row, true),
+      points_(point_row, false),
+      plain_(plain_row, false),
+      overlay_(overlay_row, false),
       wood_(textured(wood_image(512), true)),
       digits_(textured(digits_image(), false)) {}
 
@@ -92,14 +112,17 @@ void Renderer::prepare(const Program& program, const Table& table, const Sight& 
 void Renderer::draw(const Picture& picture, const Canvas& canvas) {
   const Sight sight(picture.camera, static_cast<float>(canvas.width) / static_cast<float>(canvas.height));
   const Stage wanted{picture.table, picture.camera.is_plan ? Scoreboard{.is_there = false} : picture.board, picture.camera, canvas.width, canvas.height};
-  const bool is_new = stage_ != wanted;
-  if (is_new) set_stage(wanted, sight);
-  is_stage_moving_ = is_new;
-
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.framebuffer());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer);
-  glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(0, 0, canvas.width, canvas.height, canvas.x, canvas.y, canvas.x + canvas.width, canvas.y + canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  const bool is_moving = picture.camera.is_plan && wanted != last_ && wanted != stage_;  // a camera that moves needs no stage that is kept
+  last_ = wanted;
+  if (is_moving) {
+    draw_plain(picture, sight, canvas);
+  } else {
+    if (stage_ != wanted) set_stage(wanted, sight);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer);
+    glDisable(GL_SCISSOR_TEST);
+    glBlitFramebuffer(0, 0, canvas.width, canvas.height, canvas.x, canvas.y, canvas.x + canvas.width, canvas.y + canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
 
   glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
   glViewport(canvas.x, canvas.y, canvas.width, canvas.height);
@@ -107,15 +130,15 @@ void Renderer::draw(const Picture& picture, const Canvas& canvas) {
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  draw_marks(picture, sight, canvas, false);
+  draw_marks(picture, sight, canvas);
   if (picture.camera.is_plan) draw_plan(picture, sight, canvas);
   else draw_pieces(picture, sight, canvas);
-  draw_marks(picture, sight, canvas, true);
+  draw_overlay(picture, sight, canvas);
   glDisable(GL_BLEND);
   glBindVertexArray(0);
 }
 
-/// With samples where it will be kept; without, and at once, while the camera moves.
+/// The depth, by which marks and pieces are hidden, from a pass without samples; the colour from one with them.
 void Renderer::set_stage(const Stage& stage, const Sight& sight) {
   if (kept_.width() != stage.width || kept_.height() != stage.height) {
     kept_ = Target(stage.width, stage.height, 0);
@@ -127,7 +150,6 @@ void Renderer::set_stage(const Stage& stage, const Sight& sight) {
   if (is_score_alone) confine(board_box(stage.table, stage.board), sight, stage.width, stage.height);
   draw_stage(stage, sight, kept_.framebuffer());
   stage_ = stage;
-  if (is_stage_moving_) return glDisable(GL_SCISSOR_TEST);
   draw_stage(stage, sight, samples_.framebuffer());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.framebuffer());
@@ -141,8 +163,7 @@ void Renderer::draw_stage(const Stage& stage, const Sight& sight, GLuint framebu
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
-  glClearColor(0.035f, 0.04f, 0.055f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  clear_around();
   prepare(stage_program_, stage.table, sight, {});
   stage_program_.set("is_plan", stage.camera.is_plan ? 1 : 0);
   stage_program_.set("wood", 0);
@@ -163,14 +184,42 @@ void Renderer::draw_rows(FloatStream& stream) {
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, stream.count());
 }
 
-void Renderer::draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas, bool is_over) {
+void Renderer::draw_plain(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+  if (plain_table_ != picture.table) plain_.fill(plain_mesh(picture.table));
+  plain_table_ = picture.table;
+  glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
+  glViewport(canvas.x, canvas.y, canvas.width, canvas.height);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(canvas.x, canvas.y, canvas.width, canvas.height);
+  clear_around();
+  glDisable(GL_SCISSOR_TEST);
+  flat_program_.use();
+  flat_program_.set("view", sight.matrix());
+  plain_.bind();
+  glDrawArrays(GL_TRIANGLES, 0, plain_.count());
+}
+
+void Renderer::draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas) {
   rows_.clear();
-  if (is_over) add_overlay(picture, rows_);
-  else add_marks(picture, picture.pieces.size() <= shadowed_max, rows_);
+  add_marks(picture, picture.pieces.size() <= shadowed_max, rows_);
   if (rows_.empty()) return;
   prepare(mark_program_, picture.table, sight, canvas);
   mark_program_.set("is_plan", picture.camera.is_plan ? 1 : 0);
   draw_rows(marks_);
+}
+
+void Renderer::draw_overlay(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+  rows_.clear();
+  const Eigen::Vector2f middle = sight.on_table({0.0f, 0.0f}), beside = sight.on_table({2.0f / static_cast<float>(canvas.width), 0.0f});
+  add_overlay(picture, (beside - middle).norm(), rows_);
+  if (rows_.empty()) return;
+  overlay_program_.use();
+  overlay_program_.set("view", sight.matrix());
+  overlay_.fill(rows_);
+  overlay_.bind();
+  glDrawArrays(GL_TRIANGLES, 0, overlay_.count());
 }
 
 /// From back to front; images in the table before all, for they lie under everything.
@@ -191,20 +240,37 @@ void Renderer::draw_pieces(const Picture& picture, const Sight& sight, const Can
   draw_rows(pieces_);
 }
 
+/// Small discs as points, large ones and boxes over them as quads.
 void Renderer::draw_plan(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+  const float pixel = 2.0f * sight.up().y() / static_cast<float>(canvas.height);
+  draw_points(picture, sight, pixel);
   rows_.clear();
-  rows_.reserve(picture.pieces.size() * 12);
-  const float reach_x = sight.right().x(), reach_y = sight.up().y();
   for (const Piece& piece : picture.pieces) {
-    if (std::abs(piece.x - sight.eye().x()) > reach_x + piece.half_x || std::abs(piece.y - sight.eye().y()) > reach_y + piece.half_y) continue;
+    if (is_point(piece, pixel) || !is_within(piece, sight)) continue;
     rows_.insert(rows_.end(), {piece.x, piece.y, piece.half_x, piece.half_y, piece.colour.red, piece.colour.green, piece.colour.blue, piece.shape == Piece::Shape::bat ? 1.0f : 0.0f,
                                piece.accent.red, piece.accent.green, piece.accent.blue, 0.0f});
   }
   if (rows_.empty()) return;
   plan_program_.use();
   plan_program_.set("view", sight.matrix());
-  plan_program_.set("pixel", 2.0f * reach_y / static_cast<float>(canvas.height));
+  plan_program_.set("pixel", pixel);
   draw_rows(plan_);
+}
+
+void Renderer::draw_points(const Picture& picture, const Sight& sight, float pixel) {
+  rows_.clear();
+  for (const Piece& piece : picture.pieces) {
+    if (!is_point(piece, pixel) || !is_within(piece, sight)) continue;
+    rows_.insert(rows_.end(), {piece.x, piece.y, piece.half_x, piece.colour.red, piece.colour.green, piece.colour.blue, piece.accent.red, piece.accent.green, piece.accent.blue});
+  }
+  if (rows_.empty()) return;
+  point_program_.use();
+  point_program_.set("view", sight.matrix());
+  point_program_.set("pixel", pixel);
+  points_.fill(rows_);
+  points_.bind();
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glDrawArrays(GL_POINTS, 0, points_.count());
 }
 
 }  // namespace rink::view

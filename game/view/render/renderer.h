@@ -39,17 +39,21 @@ class Renderer {
   void draw_stage(const Stage& stage, const Sight& sight, GLuint framebuffer);
   /// `program` in use, with all that shaders share.
   void prepare(const Program& program, const Table& table, const Sight& sight, const Canvas& canvas) const;
-  void draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas, bool is_over);
+  void draw_plain(const Picture& picture, const Sight& sight, const Canvas& canvas);
+  void draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas);
+  void draw_overlay(const Picture& picture, const Sight& sight, const Canvas& canvas);
+  void draw_points(const Picture& picture, const Sight& sight, float pixel);
   void draw_pieces(const Picture& picture, const Sight& sight, const Canvas& canvas);
   void draw_plan(const Picture& picture, const Sight& sight, const Canvas& canvas);
   void draw_rows(FloatStream& stream);
 
-  Program stage_program_, mark_program_, piece_program_, plan_program_;
-  FloatStream mesh_, marks_, pieces_, plan_;
+  Program stage_program_, mark_program_, piece_program_, plan_program_, point_program_, flat_program_, overlay_program_;
+  FloatStream mesh_, marks_, pieces_, plan_, points_, plain_, overlay_;
   GlName<destroy_texture> wood_, digits_;
   Target samples_, kept_;
   std::optional<Stage> stage_;
-  bool is_stage_moving_ = false;  ///< it was drawn anew in the last frame too
+  std::optional<Table> plain_table_;  ///< of which plain_ is
+  Stage last_;                        ///< of the last frame
   std::vector<float> rows_;
   std::vector<const Piece*> order_;
 };

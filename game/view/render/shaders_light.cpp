@@ -37,7 +37,7 @@ float stroke(float away, float half_width, float pixel) { return 1.0 - smoothste
 
 // The printed sheet at `p` [m]; a pixel covers about `pixel` metres there.
 vec3 print(vec2 p, float pixel) {
-  float unit = field.y / 1.2, half_pixel = 0.6 * pixel;
+  float unit = field.y / 1.2, fine = min(unit, 2.2), half_pixel = 0.6 * pixel;
   vec3 ice = linear(vec3(0.76, 0.845, 0.93)), blue = linear(vec3(0.16, 0.36, 0.70)), red = linear(vec3(0.84, 0.20, 0.22));
   bool is_left = p.x < 0.5 * field.x;
   vec3 team = linear(is_left ? left_colour : right_colour);
@@ -46,18 +46,18 @@ vec3 print(vec2 p, float pixel) {
   vec3 colour = ice;
   vec2 hole = fract(p / (0.04 * unit)) - 0.5;
   float holes = (1.0 - smoothstep(-half_pixel, half_pixel, length(hole) * 0.04 * unit - 0.0028 * unit)) * (1.0 - smoothstep(0.004 * unit, 0.02 * unit, pixel));
-  colour *= 1.0 - 0.45 * holes;
+  colour *= 1.0 - 0.45 * holes * step(unit, 2.5);                                // in a wide field they would look like pucks
   colour = mix(colour, team, 0.30 * (1.0 - smoothstep(-half_pixel, half_pixel, length(end) - crease)));
-  colour = mix(colour, team, stroke(length(end) - crease, 0.006 * unit, half_pixel));
-  colour = mix(colour, blue, stroke(end.x - 0.33 * field.x, 0.008 * unit, half_pixel) * 0.9);
+  colour = mix(colour, team, stroke(length(end) - crease, 0.006 * fine, half_pixel));
+  colour = mix(colour, blue, stroke(end.x - 0.33 * field.x, 0.008 * fine, half_pixel) * 0.9);
   float from_centre = length(centre);
   colour = mix(colour, blue, 0.14 * (1.0 - smoothstep(-half_pixel, half_pixel, from_centre - 0.19 * unit)));
-  colour = mix(colour, blue, stroke(from_centre - 0.19 * unit, 0.006 * unit, half_pixel));
-  colour = mix(colour, red, stroke(centre.x, 0.010 * unit, half_pixel));
-  colour = mix(colour, red, 1.0 - smoothstep(-half_pixel, half_pixel, from_centre - 0.03 * unit));
+  colour = mix(colour, blue, stroke(from_centre - 0.19 * unit, 0.006 * fine, half_pixel));
+  colour = mix(colour, red, stroke(centre.x, 0.010 * fine, half_pixel));
+  colour = mix(colour, red, 1.0 - smoothstep(-half_pixel, half_pixel, from_centre - 0.03 * fine));
   vec2 spot = vec2(end.x - 0.25 * field.x, abs(end.y) - 0.25 * field.y);
-  colour = mix(colour, red, 0.85 * (1.0 - smoothstep(-half_pixel, half_pixel, length(spot) - 0.018 * unit)));
-  colour = mix(colour, red, 0.85 * stroke(length(spot) - 0.07 * unit, 0.004 * unit, half_pixel));
+  colour = mix(colour, red, 0.85 * (1.0 - smoothstep(-half_pixel, half_pixel, length(spot) - 0.018 * fine)));
+  colour = mix(colour, red, 0.85 * stroke(length(spot) - 0.07 * unit, 0.004 * fine, half_pixel));
   return colour;
 }
 

@@ -1,4 +1,4 @@
-// What moves: marks on the table (soft shadows, streaks, overlays), pieces traced as rounded solids in perspective, and discs and boxes from above.
+// What moves: marks on the table (soft shadows, streaks, the glow of a goal), and pieces traced as rounded solids in perspective.
 #include "game/view/render/shaders.h"
 
 namespace rink::view {
@@ -53,7 +53,6 @@ void main() {
   if (!is_plan && gl_FragCoord.z > texelFetch(stage_depth, ivec2(gl_FragCoord.xy - origin), 0).r + 2e-5) discard;
   int kind = int(how.x + 0.5);
   vec2 p = place - shape.xy;
-  float pixel = 0.7 * length(fwidth(place));
   result = tint;
   if (kind < 2) {
     if (any(lessThan(place, vec2(0.0))) || any(greaterThan(place, field.xy))) discard;
@@ -62,18 +61,8 @@ void main() {
     float long_side = length(how.yz), along = clamp(dot(p, -how.yz) / (long_side * long_side), 0.0, 1.0);
     float away = length(p + how.yz * along) / (shape.z * (1.0 - 0.75 * along));
     result.a *= (1.0 - smoothstep(0.6, 1.0, away)) * (1.0 - along) * (1.0 - along);
-  } else if (kind == 3) {                                     // the glow of a goal
+  } else {                                                    // the glow of a goal
     result.a *= exp(-length(p / shape.zw) * 2.2) * (1.0 - smoothstep(0.8, 1.0, length(p / shape.zw)));
-  } else if (kind == 4) {                                     // a rectangle: how.y is the width of its outline in pixels, which alone is drawn if above 0
-    vec2 edge = shape.zw - abs(p);
-    float near = min(edge.x, edge.y);
-    if (how.y > 0.0) result.a *= 1.0 - smoothstep(how.y * pixel, (how.y + 1.0) * pixel, near);
-  } else if (kind == 5) {                                     // a disc, or a ring if how.y is above 0
-    float away = length(p) - shape.z;
-    result.a *= how.y > 0.0 ? stroke(away, how.y * pixel, pixel) : 1.0 - smoothstep(-pixel, pixel, away);
-  } else {                                                    // the lines of a grid with cells of how.y
-    vec2 line = abs(fract(place / how.y + 0.5) - 0.5) * how.y;
-    result.a *= 1.0 - smoothstep(0.3 * pixel, 1.3 * pixel, min(line.x, line.y));
   }
 }
 )glsl";
@@ -182,47 +171,6 @@ void main() {
     cover *= (0.10 + grazing) * exp(-world.z / 0.035);
   }
   result = vec4(shown(light), cover);
-}
-)glsl";
-
-const char* const plan_vertex = R"glsl(
-layout(location = 0) in vec4 form;     // centre, half extent [m]
-layout(location = 1) in vec4 colour;   // its alpha is 1 for a box
-layout(location = 2) in vec4 accent;
-uniform mat4 view;
-uniform float pixel;                   // m
-out vec2 place;
-flat out vec2 half_extent;
-flat out vec4 tint, second;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  half_extent = form.zw;
-  place = corner * (form.zw + pixel);
-  tint = colour;
-  second = accent;
-  gl_Position = view * vec4(form.xy + place, 0.0, 1.0);
-}
-)glsl";
-
-const char* const plan_fragment = R"glsl(
-in vec2 place;
-flat in vec2 half_extent;
-flat in vec4 tint, second;
-uniform float pixel;
-out vec4 result;
-void main() {
-  float size = min(half_extent.x, half_extent.y), away, inner;
-  if (tint.a > 0.5) {
-    vec2 q = abs(place) - half_extent + 0.3 * size;
-    away = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - 0.3 * size;
-    inner = clamp((-away - 0.35 * size) / pixel + 0.5, 0.0, 1.0);
-  } else {
-    away = length(place) - half_extent.x;
-    inner = clamp((0.18 * size - abs(away + 0.40 * size)) / pixel + 0.5, 0.0, 1.0);
-  }
-  vec3 colour = mix(tint.rgb, second.rgb, inner * clamp(0.5 * size / pixel - 0.5, 0.0, 1.0));
-  colour *= 1.0 + 0.22 * dot(place / half_extent, vec2(-0.6, 0.6)) - 0.5 * clamp((away + 0.14 * size) / (0.14 * size), 0.0, 1.0);
-  result = vec4(colour, clamp(0.5 - away / pixel, 0.0, 1.0));
 }
 )glsl";
 

@@ -23,4 +23,8 @@ Eigen::AlignedBox3f board_box(const Table& table, const Scoreboard& board);
 /// The same from straight above, where walls and table are all there is to see.
 std::vector<float> plan_mesh(const Table& table);
 
+/// Rows of triangles in plain colours, from above: place, colour.
+inline constexpr int plain_row[] = {2, 3};
+std::vector<float> plain_mesh(const Table& table);
+
 }  // namespace rink::view

@@ -1,0 +1,20 @@
+// Opens the connection and takes leave at the end.
+#include "game/net/joined_match.h"
+
+#include "game/net/address.h"
+#include "game/net/fom_file.h"
+#include "game/replication/trajectory_codec.h"
+
+namespace rink::game {
+
+JoinedMatch::JoinedMatch(const std::string& place, const NetworkMatchSettings& settings)
+    : fom_(load_rink_fom(fom_file())), model_(fom_), match_(fom_, model_, transport_, connect(transport_, place), settings) {}
+
+JoinedMatch::~JoinedMatch() { match_.leave(now_s_); }
+
+rti::ConnectionId JoinedMatch::connect(rti::TcpTransport& transport, const std::string& place) {
+  const auto [address, port] = address_and_port("HOST:PORT", place);
+  return transport.connect(address, port);
+}
+
+}  // namespace rink::game

@@ -1,0 +1,24 @@
+// A server of matches beside the window: rink-serve as a process of its own, which ends with its owner.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace rink::view {
+
+class HostProcess {
+ public:
+  /// Hosts matches of the scene "match" for everybody on `port`, with records in the folder `records`. Waits until it listens; throws std::runtime_error with its own words if it
+  /// does not, for instance because the port is in use.
+  HostProcess(const std::string& port, const std::string& records);
+  ~HostProcess();
+  HostProcess(const HostProcess&) = delete;
+  HostProcess& operator=(const HostProcess&) = delete;
+
+ private:
+  pid_t process_ = -1;
+  int said_ = -1;
+};
+
+}  // namespace rink::view

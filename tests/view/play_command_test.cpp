@@ -1,0 +1,134 @@
+// The command rink play, run as its users run it, without a display.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "game/view/render/image_file.h"
+#include "game/view/render/offscreen.h"
+
+namespace rink::view {
+namespace {
+
+using ::testing::HasSubstr;
+
+bool can_draw() {
+  try {
+    const OffscreenContext context;
+    return true;
+  } catch (const GraphicsError&) {
+    return false;
+  }
+}
+
+class PlayCommand : public ::testing::Test {
+ protected:
+  PlayCommand() : folder_(::testing::TempDir() + "/rink-view-" + ::testing::UnitTest::GetInstance()->current_test_info()->name()) { std::filesystem::create_directories(folder_); }
+  ~PlayCommand() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override {
+    if (!can_draw()) GTEST_SKIP() << "no EGL with Mesa's surfaceless platform here";
+  }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  /// The exit status; what was said on standard error is in `said_`.
+  int play(const std::string& arguments, const std::string& script = {}) {
+    std::ofstream(file("script")) << script;
+    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + RINK_BINARY_DIR + "/bin/rink-play " + arguments +
+                                (script.empty() ? "" : " --offscreen --size 640x360 --script script") + " 2>err";
+    const int status = std::system(command.c_str());
+    std::ostringstream words;
+    words << std::ifstream(file("err")).rdbuf();
+    said_ = words.str();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::filesystem::path folder_;
+  std::string said_;
+};
+
+TEST_F(PlayCommand, TakesTheSamePicturesForTheSameScript) {
+  const std::string script = "0.5 tap c\n3.2 down w\n4 picture a.png\n4.5 up w\n5 end\n";
+  ASSERT_EQ(play("--bot expert", script), 0) << said_;
+  const Image first = read_png(file("a.png"));
+  ASSERT_EQ(play("--bot expert", script), 0) << said_;
+  EXPECT_EQ(first.pixels, read_png(file("a.png")).pixels);
+  EXPECT_EQ(first.width, 640);
+}
+
+TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
+  for (const std::string downs : {"", "0.6 tap down\n", "0.6 tap down\n0.7 tap down\n"})
+    EXPECT_EQ(play("", "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 tap escape\n5.2 tap down\n5.3 tap down\n5.5 tap enter\n6 picture a.png\n"), 0) << said_;
+}
+
+TEST_F(PlayCommand, SaysWhatIsWrongWithTheSettings) {
+  std::filesystem::create_directories(file("rink"));
+  std::ofstream(file("rink/play.toml")) << "[keys.left]\nup = \"hyper\"\n";
+  ASSERT_EQ(play("", "0.2 picture trouble.png\n"), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("play.toml:2: there is no key 'hyper'"));
+}
+
+TEST_F(PlayCommand, SavesAKeyThatWasBoundAnew) {
+  // Settings are the sixth entry; the first button is the left player's left key.
+  ASSERT_EQ(play("", "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap enter\n0.9 tap space\n1.1 tap j\n1.3 picture bound.png\n1.4 end\n"), 0) << said_;
+  std::ostringstream words;
+  words << std::ifstream(file("rink/play.toml")).rdbuf();
+  EXPECT_THAT(words.str(), HasSubstr("[keys.left]\nleft = \"j\"\n"));
+}
+
+TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
+  EXPECT_EQ(play("--two"), 18);
+  EXPECT_THAT(said_, HasSubstr("xvfb"));
+  EXPECT_EQ(play("--offscreen"), 2);
+  EXPECT_EQ(play("--offscreen --screenshot a.png --size 9x9"), 2);
+  EXPECT_EQ(play("--two --bot club"), 2);
+}
+
+TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
+  std::ofstream(file("altered.keys")) << "rink-keys 1\nscene match\n";
+  const std::pair<const char*, const char*> cases[] = {{"--join 127.0.0.1:1", "Connection refused"},
+                                                       {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
+                                                       {"--host 99999", "cannot host: "},
+                                                       {"--replay altered.keys", "altered.keys"},
+                                                       {"--replay missing.keys", "missing.keys"}};
+  for (const auto& [arguments, words] : cases) {
+    EXPECT_EQ(play(arguments, "0.3 end\n"), 0) << arguments;
+    EXPECT_THAT(said_, HasSubstr(words)) << arguments;
+  }
+}
+
+TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
+  ASSERT_EQ(play("--bot expert --records kept", "3.5 down w\n5 up w\n6 end\n"), 0) << said_;
+  ASSERT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
+  EXPECT_EQ(play("--replay kept/match-1.keys", "1 picture a.png\n1.2 tap right\n1.4 tap space\n1.6 picture b.png\n"), 0) << said_;
+  EXPECT_EQ(said_, "");
+  EXPECT_GT(difference(read_png(file("a.png")), read_png(file("b.png"))).mean, 0.05);
+}
+
+class PlayCommandLong : public PlayCommand {};
+
+TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
+  const std::string port = std::to_string(20'000 + getpid() % 20'000);
+  std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
+  const std::string joining = "cd " + folder_.string() + " && sleep 1 && " + RINK_BINARY_DIR + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err &";
+  ASSERT_EQ(std::system(joining.c_str()), 0);
+  ASSERT_EQ(play("--host " + port + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
+  std::ostringstream words;
+  for (int i = 0; i < 50 && words.str().empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    words.str("");
+    words << std::ifstream(file("joined_err")).rdbuf();
+  }
+  EXPECT_THAT(words.str(), HasSubstr("The match cannot go on"));
+  EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
+  EXPECT_GT(difference(read_png(file("joined.png")), read_png(file("hosted.png"))).mean, 1.0) << "each sees it from the own end";
+  std::this_thread::sleep_for(std::chrono::seconds(3));  // until the other window is closed, before its folder goes
+}
+
+}  // namespace
+}  // namespace rink::view

@@ -1,0 +1,42 @@
+// Scripts: what they press and when, and what is said about wrong ones.
+#include "game/view/script.h"
+
+#include <gmock/gmock.h>
+
+namespace rink::view {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Script, StepsComeInOrderOfTimeAndATapIsTwoOfThem) {
+  const auto steps = parse_script("# a comment\n2 picture a b.png\n1 tap enter  # press\n\n1.5 text hi\n3 end\n", "s");
+  ASSERT_EQ(steps.size(), 5u);
+  EXPECT_TRUE(steps[0].events.at(0).is_down);
+  EXPECT_DOUBLE_EQ(steps[1].time, 1.05);
+  EXPECT_FALSE(steps[1].events.at(0).is_down);
+  EXPECT_EQ(steps[2].events.size(), 2u);
+  EXPECT_EQ(steps[3].picture, "a b.png");
+  EXPECT_TRUE(steps[4].is_end);
+}
+
+TEST(Script, EachStepIsDueOnce) {
+  const auto steps = parse_script("0 down a\n0.5 up a\n0.5 down b\n2 end\n", "s");
+  std::size_t next = 0;
+  EXPECT_EQ(due_steps(steps, next, 0.0).size(), 1u);
+  EXPECT_EQ(due_steps(steps, next, 0.4).size(), 0u);
+  EXPECT_EQ(due_steps(steps, next, 1.0).size(), 2u);
+  EXPECT_EQ(due_steps(steps, next, 9.0).size(), 1u);
+  EXPECT_EQ(due_steps(steps, next, 10.0).size(), 0u);
+}
+
+TEST(Script, AWrongLineIsNamed) {
+  for (const char* text : {"0 end\nsoon down a\n", "0 end\n-1 down a\n", "0 end\nnan down a\n", "0 end\n1 hold a\n", "0 end\n1 down hyper\n", "0 end\n1 picture\n"}) try {
+      parse_script(text, "my.script");
+      ADD_FAILURE() << text;
+    } catch (const ScriptError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("my.script:2: ")) << text;
+    }
+}
+
+}  // namespace
+}  // namespace rink::view
