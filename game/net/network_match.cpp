@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "game/model/scene_file.h"
 
@@ -13,10 +14,15 @@ constexpr double tick_longest_s = 1.0 / 30.0;  ///< a host ticks at least so oft
 constexpr double foretold_longest_s = 60.0;    ///< without news, which come every few seconds while anything moves
 constexpr double time_bend = 0.5;              ///< how much slower or faster than real time the other's time may run while its delay changes
 
+// What a match may say without being no match: beyond, an engine that takes its word would have no end of impacts, or no next instant.
+constexpr double fastest_told = 100.0;   ///< m/s
+constexpr double latest_told = 1e9;      ///< s, as in scenes
+
 /// Where a body is and how it moves, as of `time`.
 ToldBody told_of(const MirroredEntity& entity, double time) {
   ToldBody body{.position = entity.position_at(time), .held = {}};
   if (entity.trajectory && !entity.trajectory->is_resting()) body.velocity = entity.motion.at(std::max(time, entity.motion.time)).velocity;
+  body.velocity = body.velocity.cwiseMax(-fastest_told).cwiseMin(fastest_told);
   for (const Key key : all_keys) body.held.set(key, (entity.input.held >> static_cast<unsigned>(key) & 1u) != 0);
   return body;
 }
@@ -114,7 +120,7 @@ bool NetworkMatch::read_scene() {
   return scene_.has_value();
 }
 
-/// All that is known as of the newest stamp; nothing while a body is still missing.
+/// All that is known as of the newest stamp; nothing while a body is still missing, or of an instant that no match reaches.
 std::optional<ToldRink> NetworkMatch::told() const {
   const Mirror& mirror = client_.mirror();
   const std::size_t bats = scene_->bodies.bats.size(), pucks = scene_->bodies.pucks.size();
@@ -127,7 +133,7 @@ std::optional<ToldRink> NetworkMatch::told() const {
     told.bats[entity.shape.team] = told_of(entity, told.time);
     ++bat_count;
   }
-  if (bat_count != bats || found.size() != pucks) return std::nullopt;
+  if (bat_count != bats || found.size() != pucks || std::abs(told.time) > latest_told) return std::nullopt;
   std::sort(found.begin(), found.end(), [](const MirroredEntity* a, const MirroredEntity* b) { return a->object < b->object; });
   for (const MirroredEntity* puck : found) {
     told.pucks.push_back(told_of(*puck, told.time));

@@ -89,6 +89,7 @@ struct WorldSpec {
   RestitutionTable restitution;
   std::optional<SurfaceFriction> surface_friction;  ///< absent: surfaces are smooth and nothing spins; tables are as large as `restitution`
   bool accounts_energy = false;                     ///< keep the books behind World::dissipated(); never changes the motion
+  double contact_time = 5e-4;  ///< time scale of pressed contact [s], above 0: impacts that follow each other faster are taken together (docs/physics.md, "Degenerate contact")
   double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world choose. Changes cost, never results.
   QueuePolicy queue = QueuePolicy::calendar;  ///< likewise
   bool allow_overlap = false;                 ///< bodies may be added where others are; those that overlap and approach collide at once, none is ever moved

@@ -1,6 +1,7 @@
 // Bodies coming and going, the grid, and the event loop.
 #include "game/physics/engine.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <limits>
@@ -13,9 +14,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
 template <class Real>
-BasicEngine<Real>::BasicEngine(const WorldSpec& spec) : spec_(spec), puck_drag_(spec.puck_drag), queue_(spec.queue) {
+BasicEngine<Real>::BasicEngine(const WorldSpec& spec)
+    : spec_(spec), puck_drag_(spec.puck_drag), contact_time_(spec.contact_time), rest_speed_(20.0 * contact_time_), queue_(spec.queue) {
   assert(spec.field.length > 0.0 && spec.field.width > 0.0 && spec.field.goal_width >= 0.0 && spec.field.goal_width <= spec.field.width);
-  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.field.wall < spec.restitution.material_count());
+  assert(spec.puck_drag >= 0.0 && spec.bat_drag >= 0.0 && spec.contact_time > 0.0 && spec.field.wall < spec.restitution.material_count());
   assert(spec.puck_friction >= 0.0 && (!is_rough() || (spec.surface_friction->coefficient.material_count() == spec.restitution.material_count() &&
                                                        spec.surface_friction->tangential_restitution.material_count() == spec.restitution.material_count())));
   tolerance_ = 0x1p-52 * fineness<Real> * (spec.field.length + spec.field.width);
@@ -52,7 +54,7 @@ BodyId BasicEngine<Real>::add(BodyKind kind, const Vector2& position, const Vect
   jams_.push_back(0);
   write_law(body);
   if (is_rough()) spins_.push_back(spin);
-  if (is_slowed()) rest_times_.push_back(infinity), slide(body);
+  if (is_slowed()) rest_times_.push_back(infinity), slowing_.emplace_back(0.0, 0.0), slide(body);
   if (spec_.accounts_energy) introduced_.add(energy_of(body));
   enter_mouth_if_inside(body);
   const std::uint32_t count = body + 1;
@@ -194,6 +196,7 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
     ++counters_.stale_events;
     return predict(body);
   }
+  count_event(time);
   if (p == partner::goal_line) score(body, time);
   else if (p == partner::release) release(body, time);
   else if (p == partner::stop) stop(body, time);
@@ -204,11 +207,21 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
   settle();
 }
 
+/// Time that advances by roundings alone does not count as advancing.
+template <class Real>
+void BasicEngine<Real>::count_event(Real time) {
+  if (time > instant_begin_ + 16.0 * std::numeric_limits<Real>::epsilon() * (1.0 + time)) {
+    instant_begin_ = time;
+    events_at_once_ = 0;
+    is_hopeless_ = false;
+  }
+  counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
+}
+
 template <class Real>
 void BasicEngine<Real>::settle() {
   if (spec_.accounts_energy) enter_impacts();
-  if (is_slowed())
-    for (const std::uint32_t body : touched_) slide(body);
+  if (is_slowed()) slide_touched();
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);

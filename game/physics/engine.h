@@ -1,6 +1,7 @@
 // The event loop behind World: bodies at their own last events, one earliest event per body, rest contacts and pressed clusters.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,10 +17,8 @@
 
 namespace rink::physics {
 
-/// Time scale of pressed contact [s]: a body that suffers `impact_count_max` slow impacts within it is taken out of its contacts at once (docs/physics.md, "Degenerate contact").
-constexpr double contact_time = 5e-4;
-/// Pressed contacts that close more slowly than this come to rest [m/s].
-constexpr double rest_speed = 20.0 * contact_time;
+/// Impacts are looked at together if they come within this time of each other [s]; whether they are one is decided by their gaps.
+constexpr double instant = 1e-9;
 /// Bodies nearer than this take part in a hop [m].
 constexpr double cluster_gap = 2e-6;
 
@@ -110,28 +109,34 @@ class BasicEngine {
     Partner partner;
     std::uint32_t partner_version;
     CellGrid::Direction direction;  // of the crossing
+    bool is_tied;  // another impact of the body comes within the instant
   };
-  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left};
+  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left, false};
   /// Rest contact along `axis`: `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
   struct Hold {
     Partner low, high;
     int axis;
     Real pull_time;  // when the contact force vanishes by drag
     Real force;      // of the last solution
+    Real turn_time;  // when the friction of pucks in the group takes another direction, or all of it has come to a stop
   };
   struct Contact {
     std::uint32_t body;
     Partner partner;
     Gap gap;  // normal from partner to body
   };
-  /// A contact of the cluster at hand; `body` and `partner` are places in the cluster, `fixed_place` for what cannot move.
-  struct ClusterContact {
-    std::uint32_t body, partner;
-    Vector2 normal;
-    Real impulse;
-    Real restitution;
-  };
   static constexpr std::uint32_t fixed_place = 0xffffffff;
+  /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in joint_, `fixed_place` for what cannot move.
+  struct Touch {
+    std::uint32_t body, other;
+    Partner partner;
+    Vector2 normal;
+    Real restitution;
+    Real wanted;        // least speed of separation afterwards [m/s]
+    Real impulse;       // of the problem at hand [kg m/s]
+    bool is_at_hand;    // the impact that called for the others
+    bool has_pushed;
+  };
 
   // engine.cpp: bodies and the loop
   bool is_body(Partner p) const { return p < partner::field_parts; }
@@ -151,6 +156,7 @@ class BasicEngine {
   void cross_cell(std::uint32_t body);
   void process(std::uint32_t body, Real time);
   void settle();
+  void count_event(Real time);
   void score(std::uint32_t body, Real time);
   void stop(std::uint32_t body, Real time);
   /// Counts the event, and records it if it is wanted.
@@ -166,9 +172,21 @@ class BasicEngine {
   void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
   Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
   void touch(std::uint32_t body);
-  bool is_slowed() const { return spec_.puck_friction > 0.0; }
-  void slide(std::uint32_t body);
   void wake(std::uint32_t body, Real time);
+
+  // engine_friction.cpp
+  bool is_slowed() const { return spec_.puck_friction > 0.0; }
+  bool is_slowed(std::uint32_t body) const { return is_slowed() && bodies_[body].kind == BodyKind::puck; }
+  bool is_sliding(std::uint32_t body) const { return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0; }
+  Real own_push(std::uint32_t body, int axis) const { return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis] : builds_[body].thrust[axis]; }
+  void slide_touched();
+  void slide(std::uint32_t body);
+  std::optional<int> pushed_axis(std::uint32_t body) const;
+  bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
+  Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
+  void calm(int axis, const std::vector<std::uint32_t>& members);
+  Vector2 friction_along(const Vector2& velocity) const;
+  Real speed_lost(Real speed, Real push, Real drag) const;
 
   // engine_prediction.cpp
   void predict(std::uint32_t body);
@@ -203,11 +221,36 @@ class BasicEngine {
   void count_impact(std::uint32_t body, Partner partner, Real time);
   void note_impact(std::uint32_t body, Real time);
 
+  // engine_simultaneous.cpp
+  bool is_crowded(std::uint32_t body, Partner partner) const;
+  bool is_endless() const;
+  bool collide_together(const Contact& contact, Real time);
+  bool gather_touching(const Contact& contact, Real time);
+  void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
+  std::uint32_t place_in_joint(std::uint32_t body, Real time);
+  Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const;
+  Real joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const;
+  Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
+  Real joint_speed() const;
+  bool solve_joint();
+  bool propagate();
+  bool yield_as_one(Real restitution_max);
+  bool come_to_rest();
+  void part_what_rounding_closes();
+  bool find_pushing();
+  bool push_until_blocked(std::uint32_t touch);
+  Real orthogonalise(const Touch& touch);
+  void append_pushing(std::uint32_t touch, Real length);
+  void drop_pushing(std::size_t place);
+  void reflect(bool as_wanted, Real restitution_max = 1.0);
+  void apply_joint(Real time);
+
   // engine_rest.cpp
   bool can_rest(const Contact& contact) const;
   void rest(const Contact& contact, Real time);
   void share(int axis, const std::vector<std::uint32_t>& members, Real time);
   void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push);
+  Real resist(const std::vector<std::uint32_t>& members, int axis);
   void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
   void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time);
   bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
@@ -216,19 +259,26 @@ class BasicEngine {
   void dissolve(std::uint32_t body, int axis, Real time);
   void release(std::uint32_t body, Real time);
   Real slide_time(const Hold& hold) const;
-  bool would_drive_pucks(const Contact& contact) const;
-  bool drives_pucks(int axis, const std::vector<std::uint32_t>& members) const;
+  bool would_push_twice(const Contact& contact) const;
   bool are_held(std::uint32_t a, std::uint32_t b) const;
   void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
 
   // engine_cluster.cpp
+  template <class Visit>
+  void visit_partners(std::uint32_t body, Visit&& visit);
   bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
   bool hop(const Contact& contact, Real approach, Real pressing, Real time);
   void gather(const Contact& contact, Real speed_max, Real time);
   void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
   std::uint32_t place_in_cluster(std::uint32_t body, Real time);
   bool freeze(Real thrust_max);
+  void part_cluster(Real separation, Real gain_max);
+  Real turning() const;
   void solve_cluster(Real separation);
+  void sweep_cluster(Real separation, Real friction = 0.0);
+  Real resist_in_cluster(Real friction);
+  Real still_speed() const;
+  Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
 
   // engine_energy.cpp: the books of energy, of worlds that keep them
   struct Expense {
@@ -254,6 +304,8 @@ class BasicEngine {
   Real now_ = 0.0;
   Real tolerance_;  // rounding error of an offset [m]
   Real puck_drag_;
+  Real contact_time_;  // s
+  Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
   LargeArray<Body> bodies_;
   LargeArray<Slot> slots_;
   std::vector<Law> laws_;
@@ -261,6 +313,7 @@ class BasicEngine {
   std::vector<Rhythm> rhythms_;
   std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
   std::vector<Real> rest_times_;     // of worlds with friction: when it will have brought the body to rest
+  std::vector<Vector2> slowing_;     // likewise: its part in the acceleration of the body
   std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
   std::vector<Hold> holds_;
   CellGrid grid_;
@@ -273,10 +326,20 @@ class BasicEngine {
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   bool is_everything_pending_ = false;
   std::vector<std::uint32_t> touched_, pending_, frozen_;
-  std::vector<std::uint32_t> cluster_;
-  std::vector<ClusterContact> cluster_contacts_;
-  std::vector<Vector2> cluster_velocities_;
+  std::vector<std::uint32_t> near_;
+  std::vector<Vector2> cluster_friction_;  // impulses per mass
   std::vector<Real> accelerations_;
+  std::vector<std::uint32_t> joint_;              // bodies of the cluster or joint impact at hand
+  std::vector<Vector2> joint_velocities_, trial_velocities_, velocities_before_;
+  std::vector<Touch> touches_;
+  std::vector<std::uint32_t> closing_, pushing_;  // touches of the problem at hand, and those of them that push
+  std::vector<std::vector<Vector2>> basis_;       // what those that push can change, orthonormal in the metric of the masses
+  std::vector<std::vector<Real>> columns_;        // each one's effect in terms of the basis: a triangle
+  std::vector<Vector2> direction_;                // of the touch that is looked at: the part of its effect beyond the basis,
+  std::vector<Real> column_, share_;              // and the part within
+  Real instant_begin_ = -1.0;                   // of the events counted as coming at once
+  std::uint64_t events_at_once_ = 0;
+  bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;
   BasicSum<Real> introduced_, work_, loss_;
@@ -285,5 +348,23 @@ class BasicEngine {
   std::vector<Event> events_;
 };
 using Engine = BasicEngine<double>;
+
+/// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls, and whatever else of the field concerns it.
+template <class Real>
+template <class Visit>
+void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
+  near_.clear();
+  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+    if (other != body) near_.push_back(other);
+  });
+  std::sort(near_.begin(), near_.end());
+  for (const std::uint32_t other : near_) visit(other);
+  const bool is_in_mouth = bodies_[body].mouth != no_mouth;
+  for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
+    if (!(is_in_mouth && wall <= partner::wall_right)) visit(wall);
+  if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat && builds_[body].half != Half::both) visit(partner::halfway);
+  if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
+    for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge) visit(edge);
+}
 
 }  // namespace rink::physics

@@ -1,5 +1,6 @@
 // Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are in equilibrium.
 #include <algorithm>
+#include <numeric>
 
 #include "game/physics/engine.h"
 
@@ -9,6 +10,9 @@ namespace {
 constexpr std::uint32_t slow_impacts_max = 8;     // within contact_time, before a hop
 constexpr std::uint32_t impacts_max = 24;         // likewise, whatever their speed, where impacts lose energy
 constexpr std::size_t cluster_max = 256;
+constexpr std::size_t direct_max = 96;            // contacts
+constexpr int sweeps_max = 500;
+constexpr double glancing_part = 16.0;             // of contact_time
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
@@ -17,7 +21,7 @@ bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real appr
   const auto is_worn = [&](std::uint32_t b) {
     const Rhythm& rhythm = rhythms_[b];
     if (rhythm.impacts >= impacts_max) return true;
-    return approach < rest_speed && (rhythm.impacts >= slow_impacts_max || (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time));
+    return approach < rest_speed_ && (rhythm.impacts >= slow_impacts_max || (rhythm.last_hop >= 0.0 && time - rhythm.last_hop < 4.0 * contact_time_));
   };
   return is_worn(body) || (!is_fixed(p) && is_worn(p));
 }
@@ -27,126 +31,204 @@ bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real appr
 /// nothing is lost or the contact is alone.
 template <class Real>
 bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real time) {
-  gather(c, std::max<Real>(rest_speed, 2.0 * approach), time);
+  gather(c, std::max<Real>(rest_speed_, 2.0 * approach), time);
   Real thrust_max = 0.0, given_back = 1.0;
-  for (const std::uint32_t body : cluster_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
-  for (const ClusterContact& contact : cluster_contacts_) given_back = std::min(given_back, contact.restitution);
+  for (const std::uint32_t body : joint_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
+  for (const Touch& contact : touches_) given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
-  if (cluster_contacts_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed)) return false;
+  if (touches_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
   if (pressure <= 0.0 && given_back == 1.0) return false;
   note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
-  for (const std::uint32_t body : cluster_) {
+  for (const std::uint32_t body : joint_) {
     Rhythm& rhythm = rhythms_[body];
-    if (time - rhythm.last_hop > 8.0 * contact_time) rhythm.hops = 0;
+    if (time - rhythm.last_hop > 8.0 * contact_time_) rhythm.hops = 0;
     rhythm.last_hop = time;
   }
   may_freeze = may_freeze && rhythms_[c.body].hops % 4 == 0;
-  for (const std::uint32_t body : cluster_) ++rhythms_[body].hops;
+  for (const std::uint32_t body : joint_) ++rhythms_[body].hops;
   if (may_freeze && freeze(thrust_max)) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
-  cluster_velocities_.clear();
-  for (const std::uint32_t body : cluster_) cluster_velocities_.push_back(velocity_of(body));
+  joint_velocities_.clear();
+  for (const std::uint32_t body : joint_) joint_velocities_.push_back(velocity_of(body));
   Real speed = 0.0;
-  for (const Vector2& velocity : cluster_velocities_) speed = std::max(speed, velocity.norm());
-  if (thrust_max == 0.0 && speed < creep_speed) std::fill(cluster_velocities_.begin(), cluster_velocities_.end(), Vector2(0.0, 0.0));
-  else solve_cluster(std::max(std::clamp<Real>(0.5 * pressure * contact_time, 0.0, 0.5 * rest_speed), 1e-12 * fineness<Real> * speed));
-  for (std::size_t place = 0; place < cluster_.size(); ++place) {
-    bodies_[cluster_[place]].vx = cluster_velocities_[place].x();
-    bodies_[cluster_[place]].vy = cluster_velocities_[place].y();
+  for (const Vector2& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
+  if (thrust_max == 0.0 && speed < still_speed()) {
+    std::fill(joint_velocities_.begin(), joint_velocities_.end(), Vector2(0.0, 0.0));
+  } else {
+    // Less than a few roundings of the speeds would be none; its energy, 1e-24 of what there is, is below rounding.
+    const Real least = 1e-12 * fineness<Real> * speed;
+    const Real driven = std::max(least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)), sum = driven * static_cast<Real>(touches_.size());
+    Real mass = 0.0;
+    for (const std::uint32_t body : joint_) mass += builds_[body].mass;
+    const Real glancing = glancing_speed(thrust_max, pressing, speed);
+    if (glancing > driven) part_cluster(glancing, 0.5 * mass * glancing * glancing);
+    else part_cluster(pressure > 0.0 ? driven : std::max(least, 0.5 * turning() * contact_time_), 0.5 * mass * sum * sum);
+  }
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    bodies_[joint_[place]].vx = joint_velocities_[place].x();
+    bodies_[joint_[place]].vy = joint_velocities_[place].y();
   }
   return true;
 }
 
+/// The acceleration at which contacts close because their normals turn, at most [m/s^2]: v^2/R.
+template <class Real>
+Real BasicEngine<Real>::turning() const {
+  Real most = 0.0;
+  for (const Touch& c : touches_) {
+    const bool is_partner_moved = c.other != fixed_place;
+    const Vector2 there = is_partner_moved ? joint_velocities_[c.other] : Vector2(0.0, 0.0);
+    const Real reach = bodies_[joint_[c.body]].radius + (is_partner_moved ? bodies_[joint_[c.other]].radius : Real(0.0));
+    if (reach > 0.0) most = std::max(most, (joint_velocities_[c.body] - there).squaredNorm() / reach);
+  }
+  return most;
+}
+
+/// Pucks that nothing but their friction presses together hop further than others, as if they met for 16 `contact_time`: that presses weakly and only until they rest. During
+/// the flight friction takes more energy than the hop gives, for they are faster than twice the hop.
+template <class Real>
+Real BasicEngine<Real>::glancing_speed(Real thrust_max, Real pressing, Real speed) const {
+  const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
+  return is_slowed() && thrust_max == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
+}
+
+/// What moves no faster than this, and is not driven, stops [m/s]: pucks that friction would stop within `contact_time`, and anything that merely creeps.
+template <class Real>
+Real BasicEngine<Real>::still_speed() const {
+  const bool is_slowed_down = std::all_of(joint_.begin(), joint_.end(), [&](std::uint32_t body) { return is_slowed(body); });
+  return is_slowed_down ? std::max<Real>(creep_speed, spec_.puck_friction * contact_time_) : Real(creep_speed);
+}
+
 template <class Real>
 std::uint32_t BasicEngine<Real>::place_in_cluster(std::uint32_t body, Real time) {
-  const auto found = std::find(cluster_.begin(), cluster_.end(), body);
-  if (found != cluster_.end()) return static_cast<std::uint32_t>(found - cluster_.begin());
+  const auto found = std::find(joint_.begin(), joint_.end(), body);
+  if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
   wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   rebase(body, time);
-  cluster_.push_back(body);
-  return static_cast<std::uint32_t>(cluster_.size() - 1);
+  joint_.push_back(body);
+  return static_cast<std::uint32_t>(joint_.size() - 1);
 }
 
 template <class Real>
 void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
-  const std::uint32_t body = cluster_[place];
+  const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   if (c.gap.distance > cluster_gap) return;
   const Vector2 there = is_fixed(p) ? Vector2(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
-    cluster_contacts_.push_back({place, fixed_place, c.gap.normal, 0.0, restitution(body, p)});
+    touches_.push_back({place, fixed_place, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
     return;
   }
-  const bool is_known = std::find(cluster_.begin(), cluster_.end(), p) != cluster_.end();
-  if (!is_known && cluster_.size() >= cluster_max) return;
+  const bool is_known = std::find(joint_.begin(), joint_.end(), p) != joint_.end();
+  if (!is_known && joint_.size() >= cluster_max) return;
   const std::uint32_t other = place_in_cluster(p, time);
-  if (other > place) cluster_contacts_.push_back({place, other, c.gap.normal, 0.0, restitution(body, p)});
+  if (other > place) touches_.push_back({place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, false, false});
 }
 
 /// Every body connected with the contact by gaps below `cluster_gap` that close or open no faster than `speed_max`, in an order that depends on ids alone.
 template <class Real>
 void BasicEngine<Real>::gather(const Contact& c, Real speed_max, Real time) {
-  cluster_.clear();
-  cluster_contacts_.clear();
+  joint_.clear();
+  touches_.clear();
   place_in_cluster(c.body, time);
   if (!is_fixed(c.partner)) place_in_cluster(c.partner, time);
-  std::vector<std::uint32_t> near;
-  for (std::uint32_t place = 0; place < cluster_.size(); ++place) {
-    const std::uint32_t body = cluster_[place];
-    near.clear();
-    grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
-      if (other != body) near.push_back(other);
-    });
-    std::sort(near.begin(), near.end());
-    for (const std::uint32_t other : near) add_contact(place, other, speed_max, time);
-    const bool is_in_mouth = bodies_[body].mouth != no_mouth;
-    for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
-      if (!(is_in_mouth && wall <= partner::wall_right)) add_contact(place, wall, speed_max, time);
-    if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat && builds_[body].half != Half::both) add_contact(place, partner::halfway, speed_max, time);
-    if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
-      for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge) add_contact(place, edge, speed_max, time);
-  }
+  for (std::uint32_t place = 0; place < joint_.size(); ++place)
+    visit_partners(joint_[place], [&](Partner p) { add_contact(place, p, speed_max, time); });
 }
 
-/// Projects `cluster_velocities_` onto those that open every contact by at least `separation`: Gauss-Seidel on impulses, least change in the metric of the masses.
+/// Parts the cluster at `separation`. Energy may grow by `gain_max`; what it takes beyond that, the bodies pay from their motion against each other (from all their motion
+/// where the cluster leans on something fixed), which leaves the momentum and slows the parting in the same measure.
+template <class Real>
+void BasicEngine<Real>::part_cluster(Real separation, Real gain_max) {
+  Real mass = 0.0;
+  Vector2 momentum(0.0, 0.0);
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    mass += builds_[joint_[place]].mass;
+    momentum += builds_[joint_[place]].mass * joint_velocities_[place];
+  }
+  const bool is_leaning = std::any_of(touches_.begin(), touches_.end(), [](const Touch& c) { return c.other == fixed_place; });
+  const Vector2 frame = is_leaning ? Vector2(0.0, 0.0) : Vector2(momentum / mass);
+  const auto energy = [&] {
+    Real sum = 0.0;
+    for (std::size_t place = 0; place < joint_.size(); ++place) sum += 0.5 * builds_[joint_[place]].mass * (joint_velocities_[place] - frame).squaredNorm();
+    return sum;
+  };
+  const Real energy_before = energy(), energy_max = energy_before + gain_max;
+  solve_cluster(separation);
+  Real energy_after = energy();
+  if (energy_after > energy_max) {
+    const Real share = std::sqrt(energy_max / energy_after);
+    for (Vector2& velocity : joint_velocities_) velocity = frame + share * (velocity - frame);
+    energy_after = energy_max;
+  }
+  counters_.hop_energy += std::max(0.0, static_cast<double>(energy_after - energy_before));
+}
+
+/// The nearest velocities, in the metric of the masses, that part every contact at `separation` or faster.
 template <class Real>
 void BasicEngine<Real>::solve_cluster(Real separation) {
-  const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[cluster_[place]].inverse_mass; };
-  Real scale = separation;
-  for (const Vector2& velocity : cluster_velocities_) scale = std::max(scale, velocity.norm());
-  const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * scale;
-  for (ClusterContact& c : cluster_contacts_) c.impulse = 0.0;
-  for (int sweep = 0; sweep < 500; ++sweep) {
-    Real change = 0.0;
-    for (ClusterContact& c : cluster_contacts_) {
-      const Real own = yielding(c.body), other = yielding(c.partner);
-      const Vector2 there = c.partner == fixed_place ? Vector2(0.0, 0.0) : cluster_velocities_[c.partner];
-      const Real lacking = separation - c.normal.dot(cluster_velocities_[c.body] - there);
+  for (Touch& touch : touches_) touch.wanted = separation;
+  closing_.resize(touches_.size());
+  std::iota(closing_.begin(), closing_.end(), 0u);
+  if (touches_.size() <= direct_max && find_pushing()) joint_velocities_ = trial_velocities_;
+  else sweep_cluster(separation);
+}
+
+/// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at the price of poor convergence where light bodies lie between heavy ones. Where
+/// `friction` is above 0, pucks resist their motion by up to that impulse per mass.
+template <class Real>
+void BasicEngine<Real>::sweep_cluster(Real separation, Real friction) {
+  const auto yielding = [&](std::uint32_t place) { return place == fixed_place ? 0.0 : builds_[joint_[place]].inverse_mass; };
+  const Real accuracy = separation > 0.0 ? 0.1 * separation : 1e-9 * joint_speed();
+  for (Touch& c : touches_) c.impulse = 0.0;
+  cluster_friction_.assign(joint_.size(), Vector2(0.0, 0.0));
+  for (int sweep = 0; sweep < sweeps_max; ++sweep) {
+    Real change = friction > 0.0 ? resist_in_cluster(friction) : Real(0.0);
+    for (Touch& c : touches_) {
+      const Real own = yielding(c.body), other = yielding(c.other), lacking = separation - parting(c, joint_velocities_);
       const Real impulse = std::max<Real>(0.0, c.impulse + lacking / (own + other)), step = impulse - c.impulse;
       c.impulse = impulse;
-      cluster_velocities_[c.body] += step * own * c.normal;
-      if (c.partner != fixed_place) cluster_velocities_[c.partner] -= step * other * c.normal;
+      joint_velocities_[c.body] += step * own * c.normal;
+      if (c.other != fixed_place) joint_velocities_[c.other] -= step * other * c.normal;
       change = std::max(change, std::abs(step) * (own + other));
     }
     if (change <= accuracy) return;
   }
 }
 
-/// Brings a slow cluster whose contacts can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
+/// One sweep of static friction in sweep_cluster(); answers its largest change.
+template <class Real>
+Real BasicEngine<Real>::resist_in_cluster(Real friction) {
+  Real change = 0.0;
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    if (!is_slowed(joint_[place])) continue;
+    Vector2 resistance = cluster_friction_[place] - joint_velocities_[place];
+    const Real length = resistance.norm();
+    if (length > friction) resistance *= friction / length;
+    const Vector2 step = resistance - cluster_friction_[place];
+    joint_velocities_[place] += step;
+    cluster_friction_[place] = resistance;
+    change = std::max(change, step.norm());
+  }
+  return change;
+}
+
+/// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long as nothing else acts on it. Answers whether it could.
 template <class Real>
 bool BasicEngine<Real>::freeze(Real thrust_max) {
-  cluster_velocities_.clear();
-  for (const std::uint32_t body : cluster_) {
-    if (velocity_of(body).norm() > rest_speed) return false;
-    cluster_velocities_.push_back(builds_[body].thrust);
+  joint_velocities_.clear();
+  for (const std::uint32_t body : joint_) {
+    if (velocity_of(body).norm() > rest_speed_) return false;
+    joint_velocities_.push_back(builds_[body].thrust);
   }
-  solve_cluster(0.0);
-  for (const Vector2& acceleration : cluster_velocities_)
+  if (is_slowed()) sweep_cluster(0.0, spec_.puck_friction);
+  else solve_cluster(0.0);
+  for (const Vector2& acceleration : joint_velocities_)
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
   stop_cluster();
   return true;

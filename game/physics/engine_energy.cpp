@@ -13,21 +13,23 @@ Real BasicEngine<Real>::energy_of(std::uint32_t body) const {
 }
 
 /// What the law of the body has cost since its last event, at `time`: along each axis the integrals of a v and g v^2, with v = v0 e + a s (docs/physics.md, "Energy").
-/// The acceleration of a puck under friction is friction, any other thrust: its own, or its share in that of those who press on it.
+/// Of the acceleration, friction takes its part; all else is thrust: the body's own, or its share in that of those who press on it.
 template <class Real>
 auto BasicEngine<Real>::expense_until(std::uint32_t body, Real time) const -> Expense {
   const Motion m = motion(body);
   const Real elapsed = std::min(time, m.rest_time) - m.time;
   if (elapsed <= 0.0 || builds_[body].inverse_mass == 0.0) return {0.0, 0.0};
-  Real pushed = 0.0, dragged = 0.0;
+  const bool is_rubbed = is_slowed(body);
+  Real pushed = 0.0, dragged = 0.0, rubbed = 0.0;
   for (int axis = 0; axis < 2; ++axis) {
     const Real v = m.velocity[axis], a = m.acceleration[axis], g = m.drag[axis];
     const WarpedTime w = a == 0.0 ? warp_unaccelerated(elapsed, g) : warp(elapsed, g);
     pushed += a * (v * w.s + a * w.q);
+    if (is_rubbed) rubbed += slowing_[body][axis] * (v * w.s + a * w.q);
     dragged += g * v * (0.5 * v * w.s * (1.0 + w.e) + a * w.s * w.s) + a * a * (w.q - 0.5 * w.s * w.s);
   }
   const Real mass = builds_[body].mass;
-  if (is_slowed() && bodies_[body].kind == BodyKind::puck) return {0.0, mass * (dragged - pushed)};
+  if (is_rubbed) return {mass * (pushed - rubbed), mass * (dragged - rubbed)};
   return {mass * pushed, mass * dragged};
 }
 

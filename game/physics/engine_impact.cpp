@@ -51,13 +51,14 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
   Body &a = bodies_[low], &b = bodies_[high];
   if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck || !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0) return false;
+  if (is_crowded(body, p)) return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0, elapsed_b = b.time < time ? time - b.time : 0.0;
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b, by = b.y + b.vy * elapsed_b;
   const Real x = ax - bx, y = ay - by;
   if (x == 0.0 || y == 0.0) return false;  // in line with an axis they might come to rest on each other
   const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy), length_max = std::abs(x) + std::abs(y);
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
-  if (!(approach >= 1.01 * std::max<Real>(rest_speed, separation_min<Real> * speed_max) * length_max)) return false;
+  if (!(approach >= 1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max)) return false;
   note(EventKind::puck_puck, time, low, high);
   counters_.evaluations += (a.time < time) + (b.time < time);
   counters_.bodies_touched += 2;
@@ -90,13 +91,14 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
   const Vector2& normal = c.gap.normal;
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
-  if (approach < rest_speed || given_back < 1.0) {
+  if (approach < rest_speed_ || given_back < 1.0) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
-    if (approach < rest_speed && pressing > press_min && can_rest(c)) return rest(c, time);
+    if (approach < rest_speed_ && pressing > press_min && can_rest(c)) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
     if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
   }
+  if (is_crowded(body, p) && collide_together(c, time)) return;
   bounce(c, given_back, time);
 }
 
@@ -164,7 +166,7 @@ void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
 template <class Real>
 void BasicEngine<Real>::note_impact(std::uint32_t body, Real time) {
   Rhythm& rhythm = rhythms_[body];
-  if (time - rhythm.window_start > contact_time) {
+  if (time - rhythm.window_start > contact_time_) {
     rhythm.window_start = time;
     rhythm.impacts = 0;
   }

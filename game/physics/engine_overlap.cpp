@@ -34,7 +34,7 @@ void BasicEngine<Real>::stop_around(const Contact& c, Real time) {
 template <class Real>
 void BasicEngine<Real>::stop_cluster() {
   ++jam_count_;
-  for (const std::uint32_t body : cluster_) {
+  for (const std::uint32_t body : joint_) {
     Body& b = bodies_[body];
     b.vx = b.vy = 0.0;
     b.flags |= frozen;

@@ -10,10 +10,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-/// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
+/// Ties break by (time, lower id, higher id); parts of the field count as higher than every body. Whether another impact follows within the instant does not depend on
+/// the order of the offers.
 template <class Real>
 void BasicEngine<Real>::offer(std::uint32_t body, Real time, Partner p) {
   Slot& slot = slots_[body];
+  if (time > slot.impact_time + Real(instant)) return;
+  slot.is_tied = time >= slot.impact_time - Real(instant);
   if (time > slot.impact_time) return;
   if (time == slot.impact_time && std::minmax(body, p) >= std::minmax(body, slot.partner)) return;
   slot.impact_time = time;
@@ -33,12 +36,13 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
   if (bodies_[body].kind == BodyKind::post) return;
   slots_[body].impact_time = infinity;
   slots_[body].partner = partner::none;
+  slots_[body].is_tied = false;
   predict_field(body);
+  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
   const std::uint32_t count = grid_.collect(body, candidates_.data());
   --counters_.predictions;  // of the body with itself
   predict_pairs(body, count);
-  if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   enqueue(body);
 }
 
@@ -121,7 +125,7 @@ void BasicEngine<Real>::predict_curved_walls(std::uint32_t body) {
   const Motion still, moving = motion(body);
   const RelativeMotion relative{still, moving};
   const auto predict_plane = [&](Partner wall) {
-    const auto time = first_contact(relative, plane_of(body, wall), b.time, slots_[body].impact_time, tolerance_);
+    const auto time = first_contact(relative, plane_of(body, wall), b.time, slots_[body].impact_time + Real(instant), tolerance_);
     if (!time) return;
     const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
     const bool is_open = is_end && b.kind == BodyKind::puck && std::abs(moving.at(*time).position.y() - 0.5 * spec_.field.width) < 0.5 * spec_.field.goal_width;
@@ -151,7 +155,7 @@ void BasicEngine<Real>::predict_mouth(std::uint32_t body) {
   const Motion moving = motion(body);
   Motion still;
   const auto meet = [&](const auto& shape, Partner p) {
-    const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time, slots_[body].impact_time, tolerance_);
+    const auto time = first_contact(RelativeMotion{still, moving}, shape, b.time, slots_[body].impact_time + Real(instant), tolerance_);
     if (time) offer(body, *time, p);
   };
   const Real end = is_left ? 0.0 : spec_.field.length, inwards = is_left ? 1.0 : -1.0;
@@ -178,16 +182,17 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
     if (near[k] != body) predict_pair(body, near[k]);
 }
 
-/// Where nothing comes at the same time, which is nearly always, no branch depends on who meets whom.
+/// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets whom.
 template <class Real>
 void BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count) {
   Slot& slot = slots_[body];
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
-    // The slack keeps those that rounding makes simultaneous.
-    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>);
+    // The slack keeps those that come within the same instant.
+    const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>) + Real(instant);
     const Meeting<Real> first = first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
-    if (first.time < infinity && (first.second_time == first.time || first.time == slot.impact_time)) {
+    const bool is_tied = first.second_time <= first.time + Real(instant) || std::abs(first.time - slot.impact_time) <= Real(instant);
+    if (first.time < infinity && is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
         if (const auto time = meeting_time<Real>(bodies_[body], bodies_[near[k]], latest)) offer(body, *time, near[k]);
       continue;
@@ -197,6 +202,7 @@ void BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t
     const std::uint32_t version = bodies_[is_earlier ? first.other : body].version;
     slot.impact_time = std::min(slot.impact_time, first.time);
     slot.partner = p;
+    slot.is_tied = slot.is_tied && !is_earlier;
     slot.partner_version = is_earlier ? version : slot.partner_version;
   }
 }
@@ -218,8 +224,8 @@ void BasicEngine<Real>::predict_pair(std::uint32_t body, std::uint32_t other) {
     offset += Vector2(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
     velocity = Vector2(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
   }
-  // Warped time never runs ahead of real time, so the best event so far limits it as well; the slack keeps those that rounding makes simultaneous.
-  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>) - time;
+  // Warped time never runs ahead of real time, so the best event so far limits it as well; the slack keeps those that come within the same instant.
+  const Real limit = slots_[body].impact_time * (1.0 + 4e-15 * fineness<Real>) + Real(instant) - time;
   if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit)) offer(body, real_time(time, *wait), other);
 }
 
@@ -230,14 +236,17 @@ void BasicEngine<Real>::predict_curved_pair(std::uint32_t body, std::uint32_t ot
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Motion a = motion(low), b = motion(high);
   const Real start = std::max(a.time, b.time);
-  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, slots_[body].impact_time, tolerance_);
+  // What comes after the next crossing of a body on a curve is looked for then, when everybody in sight is looked at anew.
+  const Slot& slot = slots_[body];
+  const Real limit = (bodies_[body].flags & curved) != 0 ? std::min(slot.impact_time, slot.crossing_time) : slot.impact_time;
+  const auto time = first_contact(RelativeMotion{a, b}, shape_of(low, high), start, limit + Real(instant), tolerance_);
   if (time) offer(body, *time, other);
 }
 
 template <class Real>
 void BasicEngine<Real>::predict_release(std::uint32_t body) {
   for (const Hold& hold : holds_)
-    if (hold.low == body || hold.high == body) offer(body, std::min(hold.pull_time, slide_time(hold)), partner::release);
+    if (hold.low == body || hold.high == body) offer(body, std::min({hold.pull_time, hold.turn_time, slide_time(hold)}), partner::release);
 }
 
 /// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as well, so now_ may be used.

@@ -37,25 +37,18 @@ std::vector<std::uint32_t> BasicEngine<Real>::companions(std::uint32_t body, std
   return found;
 }
 
-/// Friction of a puck that others push turns with its velocity, and such a motion has no closed form: pucks that friction slows rest on what is fixed, or not at all.
 template <class Real>
-bool BasicEngine<Real>::drives_pucks(int axis, const std::vector<std::uint32_t>& members) const {
-  if (!is_slowed() || is_group_fixed(axis, members)) return false;
-  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) { return bodies_[member].kind == BodyKind::puck; });
-}
-
-template <class Real>
-bool BasicEngine<Real>::would_drive_pucks(const Contact& c) const {
+bool BasicEngine<Real>::would_push_twice(const Contact& c) const {
   if (!is_slowed() || is_fixed(c.partner)) return false;
   std::vector<std::uint32_t> members = companions(c.body, held_along(c.gap.face));
   const std::vector<std::uint32_t> others = companions(c.partner, held_along(c.gap.face));
   members.insert(members.end(), others.begin(), others.end());
-  return drives_pucks(c.gap.face, members);
+  return is_pushed_twice(c.gap.face, members);
 }
 
 template <class Real>
 bool BasicEngine<Real>::can_rest(const Contact& c) const {
-  if (c.gap.face < 0 || would_drive_pucks(c)) return false;
+  if (c.gap.face < 0 || would_push_twice(c)) return false;
   if (!is_body(c.partner)) return true;
   const int along = 1 - c.gap.face;
   const Real extent = shape_of(c.body, c.partner).half_extent[along];
@@ -72,7 +65,7 @@ void BasicEngine<Real>::rest(const Contact& c, Real time) {
   note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
-  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0});
+  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0, infinity});
   for (const Partner p : {c.body, c.partner})
     if (!is_fixed(p)) bodies_[p].flags |= held_along(axis);
   const std::vector<std::uint32_t> members = companions(c.body, held_along(axis));
@@ -106,13 +99,14 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
   accelerations_.resize(bodies_.size());
   Real scale = 1.0;
   for (const std::uint32_t member : members) {
-    accelerations_[member] = builds_[member].thrust[axis] - own_drag(member) * speed;
+    accelerations_[member] = own_push(member, axis) - own_drag(member) * speed;
     scale = std::max(scale, std::abs(accelerations_[member]));
   }
   for (Hold& hold : holds_)
     if (is_in_group(hold, axis, members)) hold.force = 0.0;
+  const bool may_stick = is_slowed() && only_push && speed == 0.0 && !is_group_fixed(axis, members);
   for (int sweep = 0; sweep < 2000; ++sweep) {
-    Real change = 0.0;
+    Real change = may_stick ? resist(members, axis) : Real(0.0);
     for (Hold& hold : holds_) {
       if (!is_in_group(hold, axis, members)) continue;
       const Real low = is_fixed(hold.low) ? 0.0 : accelerations_[hold.low], high = is_fixed(hold.high) ? 0.0 : accelerations_[hold.high];
@@ -132,6 +126,8 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
 /// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and one drag, bitwise equal for all its members.
 template <class Real>
 void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
+  Real turn_time = infinity;
+  if (is_slowed()) calm(axis, members), turn_time = aim_friction(axis, members, time);
   const Real speed = velocity_of(members.front())[axis];
   solve_forces(axis, members, speed, true);
   const auto is_pulled = [&](const Hold& hold) {
@@ -146,7 +142,7 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
   for (const std::uint32_t member : members) {
     if (std::find(done.begin(), done.end(), member) != done.end()) continue;
     const std::vector<std::uint32_t> part = companions(member, held_along(axis));
-    if (part.size() > 1 && drives_pucks(axis, part)) {
+    if (part.size() > 1 && is_pushed_twice(axis, part)) {
       const auto is_in_part = [&](const Hold& hold) { return is_in_group(hold, axis, part); };
       for (const Hold& hold : holds_)
         if (is_in_part(hold)) note_release(hold, time);
@@ -154,6 +150,8 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
       for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
     } else {
       share_part(axis, part, time);
+      for (Hold& hold : holds_)
+        if (is_in_group(hold, axis, part)) hold.turn_time = turn_time;
     }
     done.insert(done.end(), part.begin(), part.end());
   }
@@ -166,17 +164,23 @@ void BasicEngine<Real>::share_part(int axis, const std::vector<std::uint32_t>& p
   Real mass = 0.0, thrust = 0.0, drag = 0.0;
   for (const std::uint32_t member : part) {
     mass += builds_[member].mass;
-    thrust += builds_[member].mass * builds_[member].thrust[axis];
+    thrust += builds_[member].mass * own_push(member, axis);
     drag += builds_[member].mass * own_drag(member);
   }
+  // Groups that friction holds: a puck at rest bears less than it could.
+  const auto bears_more = [&](std::uint32_t member) {
+    return is_slowed(member) && !is_sliding(member) && std::abs(slowing_[member][axis]) < (1.0 - 1e-9) * spec_.puck_friction;
+  };
+  const bool stands = !is_alone && !is_fixed_part && velocity_of(part.front())[axis] == 0.0 && std::any_of(part.begin(), part.end(), bears_more);
   for (const std::uint32_t member : part) {
     Body& b = bodies_[member];
     b.flags = static_cast<std::uint8_t>(is_alone ? b.flags & ~held_along(axis) : b.flags | held_along(axis));
-    if (is_fixed_part) set_law(member, axis, 0.0, own_drag(member));
+    if (is_fixed_part || stands) set_law(member, axis, 0.0, own_drag(member));
     else if (is_alone) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
     else set_law(member, axis, thrust / mass, drag / mass);
   }
-  if (!is_alone) set_pull_times(axis, part, is_fixed_part || drag == 0.0 ? 0.0 : thrust / drag, is_fixed_part ? 0.0 : drag / mass, time);
+  const bool is_still = is_fixed_part || stands;
+  if (!is_alone) set_pull_times(axis, part, is_still || drag == 0.0 ? 0.0 : thrust / drag, is_still ? 0.0 : drag / mass, time);
 }
 
 /// Contact forces are linear in the common speed, which tends to `terminal_speed` at rate `drag`: one that would be negative there vanishes on the way.
@@ -233,17 +237,20 @@ Real BasicEngine<Real>::slide_time(const Hold& hold) const {
   return earliest;
 }
 
-/// The rest contacts of `body` that end at `time` do so.
+/// The rest contacts of `body` that end at `time` do so; or the friction in its group is aimed anew.
 template <class Real>
 void BasicEngine<Real>::release(std::uint32_t body, Real time) {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold hold = holds_[i];
-    if ((hold.low != body && hold.high != body) || std::min(hold.pull_time, slide_time(hold)) > time) continue;
-    note_release(hold, time);
+    if (hold.low != body && hold.high != body) continue;
+    const bool ends = std::min(hold.pull_time, slide_time(hold)) <= time;
+    if (!ends && hold.turn_time > time) continue;
+    if (ends) note_release(hold, time);
+    else note(EventKind::turn, time, body);
     const Partner inside = is_fixed(hold.low) ? hold.high : hold.low;
     const std::vector<std::uint32_t> members = companions(inside, held_along(hold.axis));
     for (const std::uint32_t member : members) rebase_companions(member, time);
-    holds_.erase(holds_.begin() + static_cast<std::ptrdiff_t>(i));
+    if (ends) holds_.erase(holds_.begin() + static_cast<std::ptrdiff_t>(i));
     return share(hold.axis, members, time);
   }
 }

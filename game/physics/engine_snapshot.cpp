@@ -11,7 +11,7 @@ namespace rink::physics {
 namespace {
 
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 3;
 
 // Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
 
@@ -48,16 +48,18 @@ bool exchange(Stream& stream, Field& field) {
 
 template <class Stream>
 bool exchange(Stream& stream, WorldSpec& spec) {
-  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, cell_size, queue, allow_overlap] = spec;
-  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, cell_size) && exchange_table(stream, restitution, 1.0) &&
+  auto& [field, puck_drag, bat_drag, puck_friction, restitution, surface_friction, accounts_energy, contact_time, cell_size, queue, allow_overlap] = spec;
+  return exchange(stream, field) && stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) && exchange_table(stream, restitution, 1.0) &&
          exchange(stream, surface_friction) && stream.choice(queue, QueuePolicy::heap) && stream.truth(accounts_energy) && stream.truth(allow_overlap) &&
-         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
+         puck_friction >= 0.0 && puck_drag >= 0.0 && bat_drag >= 0.0 && contact_time > 0.0 && cell_size >= 0.0 && field.wall < restitution.material_count();
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Counters& counters) {
-  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, crossings, stale, predictions, evaluations, touched] = counters;
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, crossings, stale, predictions, evaluations, touched);
+  auto& [disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations,
+         touched] = counters;
+  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops, freezes, stops, turns, joint, at_once, hop_energy, crossings, stale, predictions,
+                        evaluations, touched);
 }
 
 /// Of one body, in all the arrays that have an entry for it.
@@ -75,8 +77,8 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
 
 template <class Stream, class Hold>
 bool exchange_hold(Stream& stream, Hold& hold) {
-  auto& [low, high, axis, pull_time, force] = hold;
-  return stream.numbers(low, high, axis, pull_time, force);
+  auto& [low, high, axis, pull_time, force, turn_time] = hold;
+  return stream.numbers(low, high, axis, pull_time, force, turn_time);
 }
 
 }  // namespace
@@ -85,17 +87,19 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 template <class Real>
 template <class Stream>
 bool BasicEngine<Real>::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_) || !exchange(stream, counters_)) return false;
+  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_)) return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);
   for (std::size_t body = 0; body < count; ++body) {
     if (!exchange_body<Real>(stream, bodies_[body], builds_[body], laws_[body], rhythms_[body]) || !stream.number(jams_[body])) return false;
   }
-  if (is_slowed()) rest_times_.resize(count);
+  if (is_slowed()) rest_times_.resize(count), slowing_.resize(count);
   if (is_rough()) spins_.resize(count);
   for (Real& time : rest_times_)
     if (!stream.number(time)) return false;
+  for (Vector2& slowing : slowing_)
+    if (!stream.numbers(slowing.x(), slowing.y())) return false;
   for (Real& spin : spins_)
     if (!stream.number(spin)) return false;
   if (!introduced_.exchange(stream) || !work_.exchange(stream) || !loss_.exchange(stream)) return false;
@@ -114,7 +118,8 @@ bool BasicEngine<Real>::is_sound() const {
     const Body& b = bodies_[body];
     const Build& build = builds_[body];
     if (!is_finite({b.x, b.y}) || !is_finite({b.vx, b.vy}) || !is_finite(laws_[body].acceleration) || !is_finite(build.half_extent) || !is_finite(build.thrust)) return false;
-    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) || !(build.mass > 0.0) || !(build.inverse_mass >= 0.0) || b.inverse_mass != build.inverse_mass) return false;
+    if (!(b.time <= now_) || !(b.radius >= 0.0) || !std::isfinite(b.radius) || !(build.mass > 0.0) || !(build.inverse_mass >= 0.0)) return false;
+    if (b.inverse_mass != build.inverse_mass) return false;
     if (b.material >= spec_.restitution.material_count() || b.mouth > right_mouth || !(laws_[body].drag.minCoeff() >= 0.0)) return false;
   }
   const auto is_partner = [&](Partner p) { return p < count || (p >= partner::field_parts && p <= partner::halfway); };

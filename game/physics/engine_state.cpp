@@ -14,17 +14,6 @@ void BasicEngine<Real>::touch(std::uint32_t body) {
   if (spec_.accounts_energy) energies_.push_back(energy_of(body));
 }
 
-/// The law of friction for the velocity that the body has now; it does nothing to what friction does not slow.
-template <class Real>
-void BasicEngine<Real>::slide(std::uint32_t body) {
-  if (bodies_[body].kind != BodyKind::puck) return;
-  Motion sliding = motion(body);
-  sliding.slide(spec_.puck_friction);
-  laws_[body].acceleration = sliding.acceleration;
-  rest_times_[body] = sliding.rest_time;
-  write_law(body);
-}
-
 template <class Real>
 void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
   Body& b = bodies_[body];

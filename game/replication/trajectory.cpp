@@ -35,8 +35,9 @@ Resistance own_resistance(const physics::World& world, physics::BodyId body) {
   return Drag{.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}.of(world.kind(body));
 }
 
-/// What drives the body besides friction, which every receiver works out from its velocity: nothing else drives a puck that is under friction.
-Vector2 thrust_of(const Motion& motion, const Resistance& own) { return own.friction > 0.0 ? Vector2(0.0, 0.0) : motion.acceleration; }
+/// What drives the body besides friction, which every receiver works out from its velocity: nothing else drives a puck that slides on its own (and will thus have come to rest at a
+/// known time). One that a bat pushes has a law of its own.
+Vector2 thrust_of(const Motion& motion, const Resistance& own) { return own.friction > 0.0 && std::isfinite(motion.rest_time) ? Vector2(0.0, 0.0) : motion.acceleration; }
 
 Vector2 told_drag(const Motion& motion, double own) {
   return {motion.drag.x() == own ? Trajectory::of_its_kind : motion.drag.x(), motion.drag.y() == own ? Trajectory::of_its_kind : motion.drag.y()};

@@ -52,7 +52,7 @@ TEST_F(ReplayCommand, ComesToTheHashOfTheRecordedGame) {
 }
 
 TEST_F(ReplayCommand, NeedsNothingButTheLog) {
-  std::ofstream(file("arena.toml")) << "[field]\nlength = 6.0\nwidth = 4.0\n\n[[population]]\nkind = \"bat\"\ncount = 4\n[[population]]\nkind = \"puck\"\ncount = 30\nmean_speed = 1.0\n";
+  std::ofstream(file("arena.toml")) << "[field]\nlength = 6.0\nwidth = 4.0\n\n[friction]\npucks = 0.4\n[materials]\nfriction = 0.2\n[[population]]\nkind = \"bat\"\ncount = 4\n[[population]]\nkind = \"puck\"\ncount = 30\nmean_speed = 1.0\n";
   ASSERT_EQ(run("simulate " + file("arena.toml") + " --bats 8 --seed 5 --players random --until 5 --record " + file("keys")), 0) << said_;
   std::filesystem::remove(file("arena.toml"));
   EXPECT_EQ(replay(), 0) << said_;

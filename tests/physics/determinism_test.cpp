@@ -38,13 +38,16 @@ struct History {
   friend bool operator==(const History& a, const History& b) { return a.hash == b.hash && a.events == b.events && a.energy == b.energy; }
 };
 
-/// Scene k of many: pucks alone, with drag, with bats under keys, with goals; restitution 0 to 1; equal and unequal masses.
+/// Scene k of many: pucks alone, with drag, with bats under keys, with goals, with friction of the table and of surfaces, which turns pucks; restitution 0 to 1; equal and
+/// unequal masses.
 class Scene {
  public:
   explicit Scene(std::uint64_t number) : number_(number) {
     static const double restitutions[] = {0.0, 1.0, 0.5, 0.9, 0.1, 0.0, 0.7};
     spec_ = rink_of(4.0, 2.0, restitutions[number % 7], number % 3 == 0 ? 0.0 : 0.2, 1.0);
     if (number % 4 == 3) spec_.field.goal_width = 0.5;
+    if (number % 4 == 1) spec_.puck_friction = 0.6;
+    if (number % 4 == 2 || number % 8 == 5) spec_.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
     bat_count_ = number % 5 == 0 ? 0 : 6;
     mass_low_ = number % 2 == 0 ? 1.0 : 0.05;
   }

@@ -62,6 +62,21 @@ TEST(Skipping, ARestingCrowdIsNeverLookedAt) {
   EXPECT_TRUE(world.counters() == Counters{});
 }
 
+TEST(Skipping, NobodyIsEvaluatedButThoseWhoHaveAnEventOrAreAskedFor) {
+  World world(rink_of(30.0, 110.0, 1.0, 0.1));
+  for (int i = 0; i < 1000; ++i) world.add(PuckSpec{.position = {1.0, 0.05 + 0.1 * i}, .velocity = {1.0 + 1e-3 * i, 0.0}});
+  double seen = 0.0;
+  for (int step = 1; step <= 1000; ++step) {
+    world.advance(5e-3 * step);
+    seen = world.position({999}).x();
+  }
+  EXPECT_NEAR(seen, 1.0 + 1.999 * -std::expm1(-0.5) / 0.1, 1e-13);
+  EXPECT_EQ(world.counters().evaluations, 0u);
+  EXPECT_EQ(world.counters().bodies_touched, 0u);
+  EXPECT_EQ(world.counters().events(), 0u);
+  EXPECT_GT(world.counters().crossings, 1000u);
+}
+
 TEST(Skipping, AMoverFindsThoseThatWereAddedAtRestLater) {
   World world(rink_of(4.0, 2.0));
   const BodyId mover = world.add(PuckSpec{.position = {0.5, 1.0}, .velocity = {1.0, 0.0}});

@@ -19,7 +19,7 @@ Vector2 free_place(const auto& world, RandomStream& numbers, double reach) {
   }
 }
 
-/// Pucks, posts and bats under random keys, with walls, goals, rest contacts and jams.
+/// Pucks, posts and bats under random keys, with walls, goals, rest contacts and jams; half of the scenes with friction of the table, a third with rough surfaces.
 template <class AnyWorld>
 std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
   WorldSpec spec;
@@ -27,6 +27,8 @@ std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
   spec.restitution = RestitutionTable(1, restitution);
   spec.puck_drag = drag;
   spec.bat_drag = 1.0;
+  if (seed > 12) spec.puck_friction = 0.4;
+  if (seed % 3 == 1 && seed > 6) spec.surface_friction = SurfaceFriction{PairTable(1, 0.2), RestitutionTable(1, 0.3)};
   AnyWorld world(spec);
   RandomStream numbers(seed);
   std::vector<BodyId> bats;
@@ -50,7 +52,7 @@ std::uint64_t play(std::uint64_t seed, double restitution, double drag) {
 }  // namespace
 
 int main() {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const double restitution = seed % 4 == 0 ? 0.0 : seed % 4 == 1 ? 1.0 : 0.3 * static_cast<double>(seed % 4), drag = seed % 3 == 0 ? 0.0 : 0.2;
     std::printf("%2" PRIu64 " %016" PRIx64 " %016" PRIx64 "\n", seed, play<World>(seed, restitution, drag), play<ExtendedWorld>(seed, restitution, drag));
   }
