@@ -25,7 +25,7 @@ const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest
 Text replay_line(const game::ReplayMatch& replay) {
   char words[160];
   std::snprintf(words, sizeof words, "%s %.1f of %.1f s, speed %g     Space, Left, Right, Up, Down, Home", replay.is_paused() ? "stopped at" : "at", replay.sight().time, replay.end(), replay.speed());
-  return {.words = words, .y = 0.955f, .size = 0.03f, .has_plate = true};
+  return {.words = words, .y = 0.895f, .size = 0.03f, .has_plate = true};
 }
 
 }  // namespace

@@ -54,10 +54,11 @@ Scoreboard board_of(const MatchSight& sight, Viewpoint viewpoint) {
   return board;
 }
 
-/// Players of a network match have no names: one is you.
+/// Players of a network match have no names: one is you. Teams without a name are called by their colour.
 std::string name_of(const MatchSight& sight, game::Team team) {
   if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
-  return team == game::Team::left ? sight.left_name : sight.right_name;
+  const std::string& name = team == game::Team::left ? sight.left_name : sight.right_name;
+  return name == "left" ? "Red" : name == "right" ? "Blue" : name;
 }
 
 /// "RED WINS", "YOU WIN".
