@@ -183,6 +183,8 @@ class BasicEngine {
   void slide(std::uint32_t body);
   std::optional<int> pushed_axis(std::uint32_t body) const;
   bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
+  void face_friction(const std::vector<std::uint32_t>& members);
+  bool has_sliders(int axis, const std::vector<std::uint32_t>& members) const;
   Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
   void calm(int axis, const std::vector<std::uint32_t>& members);
   Vector2 friction_along(const Vector2& velocity) const;
