@@ -93,7 +93,14 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
   if (approach < rest_speed_ || given_back < 1.0) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
-    if (approach < rest_speed_ && pressing > press_min && can_rest(c)) return rest(c, time);
+    // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled by the instant's: it comes to rest so often at one instant, then it hops.
+    const auto has_rested_enough = [&](std::uint32_t b) {
+      Rhythm& rhythm = rhythms_[b];
+      rhythm.repeats = rhythm.instant == time ? rhythm.repeats + 1 : 1;
+      rhythm.instant = time;
+      return rhythm.repeats > 8;
+    };
+    if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough(body))) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
     if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
