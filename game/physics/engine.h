@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -155,6 +156,7 @@ class BasicEngine {
   bool is_left_alone(std::uint32_t body) const;
   void cross_cell(std::uint32_t body);
   void process(std::uint32_t body, Real time);
+  void look_ahead();
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);
@@ -327,6 +329,7 @@ class BasicEngine {
   std::uint32_t curved_count_ = 0;         // bodies not in straight flight
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   bool is_everything_pending_ = false;
+  std::array<std::int64_t, 4> looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
   std::vector<Vector2> cluster_friction_;  // impulses per mass

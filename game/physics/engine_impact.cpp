@@ -63,10 +63,9 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   counters_.evaluations += (a.time < time) + (b.time < time);
   counters_.bodies_touched += 2;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * (x * x + y * y));
-  a.x = ax, a.y = ay, b.x = bx, b.y = by;
-  a.vx += impulse * a.inverse_mass * x, a.vy += impulse * a.inverse_mass * y;
-  b.vx -= impulse * b.inverse_mass * x, b.vy -= impulse * b.inverse_mass * y;
-  a.time = std::max(a.time, time), b.time = std::max(b.time, time);
+  const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
+  a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
+  b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
   predict(low);
   predict(high);

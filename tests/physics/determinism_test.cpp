@@ -136,6 +136,32 @@ TEST(Determinism, OneHistoryWhateverCellsQueueStopsAndWindows) { expect_one_hist
 
 TEST(DeterminismLong, OneHistoryWhateverCellsQueueStopsAndWindows) { expect_one_history(100, 400, 4.0); }
 
+TEST(Determinism, LookingAheadAmongManyPucksChangesNothing) {
+  const auto hash = [](QueuePolicy queue) {
+    WorldSpec spec = test::rink_of(40.0, 40.0);
+    spec.field.goal_width = 20.0;
+    spec.queue = queue;
+    World world(spec);
+    std::mt19937_64 random(8);
+    constexpr std::uint32_t columns = 190;
+    for (std::uint32_t k = 0; k < columns * columns; ++k) {
+      PuckSpec puck;
+      puck.position = Vector2(k % columns + 0.5, k / columns + 0.5) * (40.0 / columns);
+      const double vx = test::uniform(random, -2.0, 2.0), vy = test::uniform(random, -2.0, 2.0);
+      puck.velocity = {vx, vy};
+      world.add(puck);
+    }
+    for (int tenth = 1; tenth <= 3; ++tenth) {
+      while (world.advance(0.1 * tenth)) {
+      }
+      for (int k = 0; k < 100; ++k) world.remove({static_cast<std::uint32_t>(random() % (columns * columns))});
+    }
+    EXPECT_GT(world.counters().goals, 10u);
+    return world.hash();
+  };
+  EXPECT_EQ(hash(QueuePolicy::calendar), hash(QueuePolicy::heap));
+}
+
 TEST(Snapshot, IsRefusedIfAnyByteIsAltered) {
   World world(rink_of(2, 1, 0.5, 0.1, 1.0));
   std::mt19937_64 random(3);
