@@ -121,7 +121,7 @@ template <class Real>
 bool BasicEventQueue<Real>::is_followed_within(Real window) const {
   const Real end = last_time_ + window;
   for (std::size_t k = due_.size(); k-- > 0 && due_[k].entry.time <= end;)
-    if (is_valid(due_[k]) && due_[k].body != found_) return true;
+    if (is_valid(due_[k]) && !is_twin(due_[k].entry, entries_[found_])) return true;
   return end * inverse_width_ >= static_cast<Real>(current_ + 1);
 }
 
