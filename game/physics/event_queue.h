@@ -27,7 +27,8 @@ class BasicEventQueue {
   /// The body whose event comes first, if it comes no later than `until`, else `none`. The entry stays.
   std::uint32_t first(Real until);
   Real time(std::uint32_t body) const { return entries_[body].time; }
-  /// Whether another event may come within `window` [s] of the one that first() has just found; the same one as that of the other body does not count. Never misses one; sometimes says yes without need.
+  /// Whether another event may come within `window` [s] of the one that first() has just found; the same one as that of the other body does not count. Never misses one;
+  /// sometimes says yes without need.
   bool is_followed_within(Real window) const;
   /// Notes looked at one by one since the queue was made: a few per event taken, or the buckets don't fit.
   std::uint64_t looked_at() const { return looked_at_; }
