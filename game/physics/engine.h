@@ -104,6 +104,8 @@ class BasicEngine {
     std::uint32_t impacts = 0, hops = 0;
     Real instant = -1.0;  // of the last impact and how many it had then; where bodies may start in overlap
     std::uint32_t repeats = 0;
+    Real meeting_instant = -1.0;  // the last instant of impacts that are not simple ones, and how many there were at it
+    std::uint32_t meetings = 0;
   };
   struct Slot {
     Real impact_time, crossing_time;
@@ -279,6 +281,8 @@ class BasicEngine {
   void part_cluster(Real separation, Real gain_max);
   Real turning() const;
   void solve_cluster(Real separation);
+  bool give_way();
+  void hold_jammed();
   void sweep_cluster(Real separation, Real friction = 0.0);
   Real resist_in_cluster(Real friction);
   Real still_speed() const;
@@ -294,6 +298,10 @@ class BasicEngine {
   void enter_impacts();
 
   // engine_overlap.cpp
+  void count_meeting(const Contact& contact);
+  std::uint32_t meetings(const Contact& contact) const;
+  bool is_hemmed_in(const Contact& contact) const;
+  bool is_beyond_hope(const Contact& contact) const;
   bool is_stuck(const Contact& contact, Real time);
   void stop_around(const Contact& contact, Real time);
   void stop_cluster();
@@ -344,6 +352,7 @@ class BasicEngine {
   std::vector<Real> column_, share_;              // and the part within
   Real instant_begin_ = -1.0;                   // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
+  std::uint32_t blocked_ = 0;                   // the touch at which find_pushing() failed
   bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;

@@ -88,9 +88,11 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
   if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
+  count_meeting(c);
+  if (is_beyond_hope(c)) return stop_around(c, time);
   const Vector2& normal = c.gap.normal;
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
-  if (approach < rest_speed_ || given_back < 1.0) {
+  if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
     // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled by the instant's: it comes to rest so often at one instant, then it hops.
     const auto has_rested_enough = [&](std::uint32_t b) {
@@ -102,7 +104,7 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
     if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough(body))) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
-    if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
+    if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) && hop(c, approach, pressing, time)) return;
   }
   if (is_crowded(body, p) && collide_together(c, time)) return;
   bounce(c, given_back, time);
