@@ -282,6 +282,7 @@ class BasicEngine {
   Real turning() const;
   void solve_cluster(Real separation);
   bool give_way();
+  bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
   void hold_jammed();
   void sweep_cluster(Real separation, Real friction = 0.0);
   Real resist_in_cluster(Real friction);
@@ -352,6 +353,7 @@ class BasicEngine {
   std::vector<Real> column_, share_;              // and the part within
   Real instant_begin_ = -1.0;                   // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
+  Real gap_max_ = cluster_gap;                  // up to which a contact belongs to a cluster
   std::uint32_t blocked_ = 0;                   // the touch at which find_pushing() failed
   bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;

@@ -1,5 +1,6 @@
 // Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are in equilibrium.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "game/physics/engine.h"
@@ -13,6 +14,8 @@ constexpr std::size_t cluster_max = 256;
 constexpr std::size_t direct_max = 96;            // contacts
 constexpr int sweeps_max = 500;
 constexpr double glancing_part = 16.0;             // of contact_time
+constexpr std::uint32_t long_series = 64;         // of hops
+constexpr double loose_gaps = 8.0;
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
@@ -45,9 +48,9 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     if (time - rhythm.last_hop > 8.0 * contact_time_) rhythm.hops = 0;
     rhythm.last_hop = time;
   }
-  may_freeze = may_freeze && rhythms_[c.body].hops % 4 == 0;
+  const std::uint32_t hops = rhythms_[c.body].hops;
   for (const std::uint32_t body : joint_) ++rhythms_[body].hops;
-  if (may_freeze && freeze(thrust_max)) {
+  if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) || (hops >= long_series && hops % 16 == 0 && freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
@@ -117,7 +120,7 @@ template <class Real>
 void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
-  if (c.gap.distance > cluster_gap) return;
+  if (c.gap.distance > gap_max_) return;
   const Vector2 there = is_fixed(p) ? Vector2(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
@@ -277,6 +280,20 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
   stop_cluster();
   return true;
+}
+
+/// A pile that hops for long is seldom in contact everywhere at once: gaps eight times as wide count as closed for the question whether it could stand. If it could not, the
+/// cluster is what gather() found before.
+template <class Real>
+bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real time) {
+  gap_max_ = loose_gaps * cluster_gap;
+  gather(c, std::numeric_limits<Real>::infinity(), time);
+  gap_max_ = cluster_gap;
+  Real thrust_max = 0.0;
+  for (const std::uint32_t body : joint_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
+  if (freeze(thrust_max)) return true;
+  gather(c, speed_max, time);
+  return false;
 }
 
 template class BasicEngine<double>;

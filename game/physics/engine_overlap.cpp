@@ -8,7 +8,7 @@ namespace rink::physics {
 namespace {
 /// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
-constexpr std::uint32_t hemmed_in_min = 1000;
+constexpr std::uint32_t hemmed_in_min = 10'000;
 }  // namespace
 
 /// Counts the impacts of each body at the instant at hand.
