@@ -97,6 +97,7 @@ double play(Played& played, const game::Game& game, const Options& options, std:
 void write_results(const Options& options, const game::Game& game, double wall_s, Outputs& outputs) {
   if (!options.states.empty()) game::write_states(outputs.states, game);
   (options.summary.empty() ? std::cout : outputs.summary) << game::summary_of(game, options.engine, wall_s) << '\n';
+  if (!std::cout.flush()) throw game::SceneError("the standard output: cannot be written to its end");
   close(outputs.states, options.states);
   close(outputs.events, options.events);
   close(outputs.summary, options.summary);
@@ -168,7 +169,7 @@ int main(int argc, char** argv) {
                              ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : name + ": expected one of " + allowed_players(); });
   app.add_option("--record", options.record, "write the game to this key log: scene, keys and final hash; rink replay plays it again, and so do --keys and rink serve --keys");
   app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)");
-  app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density (default: as it is)");
+  app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")->check(CLI::Range(0u, 100'000u));
   app.add_option("--engine", options.engine.engine, "what moves the bodies: " + listed(physics::engine_names()) + " (docs/physics.md, docs/paper-engine.md)")->capture_default_str();
   CLI::Option* integrator =
       app.add_option("--integrator", options.engine.integrator, "of the engines paper and naive: " + listed(physics::integrator_names()))->capture_default_str();

@@ -266,9 +266,20 @@ std::filesystem::path file_of(const std::string& scene) {
   throw SceneError(scene + ": no such scene: expected a file NAME.toml or one of the presets " + (known.empty() ? "(none found in " + preset_folder().string() + ")" : known));
 }
 
+/// Throws SceneError at a line of more dots than any key of a scene: toml++ opens a table for each and frees them by recursion, which a long enough key makes overflow.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr std::ptrdiff_t dots_max = 1000;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const std::string_view here = text.substr(0, text.find('\n'));
+    if (std::count(here.begin(), here.end(), '.') > dots_max) throw SceneError(file + ":" + std::to_string(line) + ": not TOML of a scene: more than 1000 dots in a line");
+    text.remove_prefix(std::min(text.size(), here.size() + 1));
+  }
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
+  refuse_deep_keys(text, file.string());
   toml::table root;
   try {
     root = toml::parse(text, file.string());

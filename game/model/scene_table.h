@@ -32,11 +32,11 @@ inline constexpr Range part_of_one{0.0, 1.0};
 /// What a scene may say, far beyond any rink: within it nothing overflows, a clock in doubles still tells impacts apart, and bodies are larger than the gap at which pressed
 /// ones count as touching, 2e-6 m (docs/scenes.md, "Limits"). A puck at 1e300 m/s would never get to the end of a second.
 namespace limit {
-inline constexpr double field_max = 1e9, speed_max = 1e6, thrust_max = 1e6, rate_max = 1e6, spin_max = 1e9, time_max = 1e9;
+inline constexpr double field_max = 1e9, speed_max = 1e6, thrust_max = 1e4, rate_max = 1e4, spin_max = 1e9, time_max = 1e9;
 inline constexpr Range field{1e-3, field_max};              ///< its sides [m]
 inline constexpr Range position{-field_max, field_max};     ///< m; whether it lies on the field is seen later
 inline constexpr Range size{1e-5, field_max};               ///< radii and half extents [m]
-inline constexpr Range mass{1e-20, 1e20};                   ///< kg
+inline constexpr Range mass{1e-6, 1e14};                    ///< kg
 inline constexpr Range velocity{-speed_max, speed_max}, speed{0.0, speed_max};  ///< m/s
 inline constexpr Range thrust{0.0, thrust_max};             ///< and friction with the table [m/s^2]
 inline constexpr Range drag{0.0, rate_max};                 ///< 1/s

@@ -19,10 +19,10 @@ std::vector<double> edges_of(std::uint32_t count, double side) {
 }  // namespace
 
 /// Empties the grid. `reach` [m] is the longest distance along an axis at which two bodies touch. Few crossings are worth many bodies in sight where the flights are long:
-/// two bodies in three cells at packing 0.05, the least possible cell at 0.5 and denser.
+/// 1.15 bodies in a cell at packing 0.05, 0.9 at 0.2, the least possible cell at 0.5 and denser.
 void CellGrid::rebuild(double length, double width, double reach, std::uint32_t body_max, double least_cell) {
   const double spacing = std::sqrt(length * width / std::max(1u, body_max));
-  side_ = std::max({0.85 * spacing - 0.1 * reach, least_cell, reach * (1.0 + 1.0 / 16.0), std::max(length, width) / 30000.0});
+  side_ = std::max({1.2 * spacing - 0.5 * reach, least_cell, reach * (1.0 + 1.0 / 16.0), std::max(length, width) / 30000.0});
   columns_ = static_cast<std::uint32_t>(std::max(1.0, std::floor(length / side_)));
   rows_ = static_cast<std::uint32_t>(std::max(1.0, std::floor(width / side_)));
   inverse_side_ = 1.0 / side_;

@@ -46,6 +46,7 @@ class CellGrid {
   }
 
   double side() const { return side_; }
+  bool is_listed(std::uint32_t body) const { return places_[body].column != Place{}.column; }
   Place place(std::uint32_t body) const { return places_[body]; }
   std::uint32_t column_of(std::uint32_t body) const { return places_[body].column; }
   std::uint32_t row_of(std::uint32_t body) const { return places_[body].row; }
@@ -65,8 +66,22 @@ class CellGrid {
   }
   /// Likewise only those in the three cells that came into sight when `body` moved to its cell by `direction`.
   std::uint32_t collect_ahead(std::uint32_t body, Direction direction, std::uint32_t* list) const {
-    const std::size_t middle = neighbour(cell_at(places_[body]), direction), across = direction <= right ? pitch_ : 1;
-    return static_cast<std::uint32_t>(append(middle + across, append(middle, append(middle - across, list))) - list);
+    return collect_three(neighbour(cell_at(places_[body]), direction), direction, list);
+  }
+  /// As collect_ahead() will do after that move.
+  std::uint32_t collect_ahead_of_move(std::uint32_t body, Direction direction, std::uint32_t* list) const {
+    return collect_three(neighbour(neighbour(cell_at(places_[body]), direction), direction), direction, list);
+  }
+
+  /// Ask the processor to fetch the place of `body`; the cells that collect() would read, and those of a move() and collect_ahead().
+  void prefetch_place(std::uint32_t body) const { __builtin_prefetch(&places_[body], 1); }
+  void prefetch_cells(std::uint32_t body) const {
+    const std::size_t middle = cell_at(places_[body]);
+    for (const std::size_t row : {middle - pitch_, middle, middle + pitch_}) prefetch(row - 1), prefetch(row + 1);
+  }
+  void prefetch_cells_ahead(std::uint32_t body, Direction direction) const {
+    const std::size_t from = cell_at(places_[body]), middle = neighbour(neighbour(from, direction), direction), across = direction <= right ? pitch_ : 1;
+    prefetch(from), prefetch(neighbour(from, direction)), prefetch(middle - across), prefetch(middle), prefetch(middle + across);
   }
 
   /// Calls `visit(body)` for every body in the cells from (column + low_x, row + low_y) to (column + high_x, row + high_y).
@@ -94,6 +109,10 @@ class CellGrid {
     const std::size_t step = direction <= right ? 1 : pitch_;
     return (direction & 1) != 0 ? cell + step : cell - step;
   }
+  std::uint32_t collect_three(std::size_t middle, Direction direction, std::uint32_t* list) const {
+    const std::size_t across = direction <= right ? pitch_ : 1;
+    return static_cast<std::uint32_t>(append(middle + across, append(middle, append(middle - across, list))) - list);
+  }
   std::uint32_t* append(std::size_t cell, std::uint32_t* list) const {
     const std::uint32_t* from = &cells_[cell * stride_];
     std::memcpy(list, from + 1, few * sizeof *from);  // places at once, taken or not
@@ -107,6 +126,7 @@ class CellGrid {
     cell[++cell[0]] = body;
   }
   void widen();
+  void prefetch(std::size_t cell) const { __builtin_prefetch(&cells_[cell * stride_], 1); }
 
   // A cell is the number of its bodies followed by their ids, stride_ - 1 at most; the stride grows with the fullest cell.
   LargeArray<std::uint32_t> cells_ = LargeArray<std::uint32_t>(9 * stride_min);

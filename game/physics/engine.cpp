@@ -11,6 +11,8 @@ namespace rink::physics {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// With fewer bodies all is near at hand, and to look ahead costs a fifth.
+constexpr std::size_t look_ahead_min = 30'000;
 }
 
 template <class Real>
@@ -178,12 +180,53 @@ template <class Real>
 std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   assert(until >= now_ && until < infinity);
   predict_pending();
+  const bool looks_ahead = bodies_.size() >= look_ahead_min && queue_.calendar() != nullptr;
   for (std::uint32_t body = queue_.first(until); body != EventQueue::none; body = queue_.first(until)) {
+    if (looks_ahead && queue_.calendar()->current() != looked_ahead_.back() - 1) look_ahead();
     process(body, queue_.time(body));
     if (goal_) return std::exchange(goal_, std::nullopt);
   }
   now_ = until;
   return std::nullopt;
+}
+
+/// Fetches what the next events will look into, in steps, as one thing leads to the next: who comes, whom he meets and in which cells, who is there. Changes nothing but speed.
+template <class Real>
+void BasicEngine<Real>::look_ahead() {
+  const auto& calendar = *queue_.calendar();
+  const auto fetch = [&](std::uint32_t body) {
+    __builtin_prefetch(&bodies_[body], 1);
+    __builtin_prefetch(&slots_[body], 1);
+    grid_.prefetch_place(body);
+    calendar.prefetch(body);
+  };
+  const auto meets = [&](std::uint32_t body) { return slots_[body].impact_time <= slots_[body].crossing_time; };
+  const auto meets_listed = [&](std::uint32_t body) { return meets(body) && is_body(slots_[body].partner) && grid_.is_listed(slots_[body].partner); };
+  const auto fetch_collected = [&](std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k) __builtin_prefetch(&bodies_[candidates_[k]]);
+  };
+  const auto step = [&](std::size_t number, auto&& visit) {
+    const std::int64_t distance = static_cast<std::int64_t>(looked_ahead_.size() - number), current = calendar.current();
+    std::int64_t& last = looked_ahead_[number];
+    if (last > current + distance) last = current;  // the buckets were numbered anew
+    for (last = std::max(last, current); last < current + distance;) calendar.upcoming(++last - current, visit);
+  };
+  candidates_.resize(grid_.collected_max());
+  step(0, fetch);
+  step(1, [&](std::uint32_t body) {
+    if (!grid_.is_listed(body)) return;  // it has left, its note has not
+    if (!meets(body)) return grid_.prefetch_cells_ahead(body, slots_[body].direction);
+    grid_.prefetch_cells(body);
+    if (is_body(slots_[body].partner)) fetch(slots_[body].partner);
+  });
+  step(2, [&](std::uint32_t body) {
+    if (!grid_.is_listed(body)) return;
+    fetch_collected(meets(body) ? grid_.collect(body, candidates_.data()) : grid_.collect_ahead_of_move(body, slots_[body].direction, candidates_.data()));
+    if (meets_listed(body)) grid_.prefetch_cells(slots_[body].partner);
+  });
+  step(3, [&](std::uint32_t body) {
+    if (meets_listed(body)) fetch_collected(grid_.collect(slots_[body].partner, candidates_.data()));
+  });
 }
 
 template <class Real>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -103,6 +104,8 @@ class BasicEngine {
     std::uint32_t impacts = 0, hops = 0;
     Real instant = -1.0;  // of the last impact and how many it had then; where bodies may start in overlap
     std::uint32_t repeats = 0;
+    Real meeting_instant = -1.0;  // the last instant of impacts that are not simple ones, and how many there were at it
+    std::uint32_t meetings = 0;
   };
   struct Slot {
     Real impact_time, crossing_time;
@@ -155,6 +158,7 @@ class BasicEngine {
   bool is_left_alone(std::uint32_t body) const;
   void cross_cell(std::uint32_t body);
   void process(std::uint32_t body, Real time);
+  void look_ahead();
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);
@@ -183,6 +187,8 @@ class BasicEngine {
   void slide(std::uint32_t body);
   std::optional<int> pushed_axis(std::uint32_t body) const;
   bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
+  void face_friction(const std::vector<std::uint32_t>& members);
+  bool has_sliders(int axis, const std::vector<std::uint32_t>& members) const;
   Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
   void calm(int axis, const std::vector<std::uint32_t>& members);
   Vector2 friction_along(const Vector2& velocity) const;
@@ -275,6 +281,9 @@ class BasicEngine {
   void part_cluster(Real separation, Real gain_max);
   Real turning() const;
   void solve_cluster(Real separation);
+  bool give_way();
+  bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
+  void hold_jammed();
   void sweep_cluster(Real separation, Real friction = 0.0);
   Real resist_in_cluster(Real friction);
   Real still_speed() const;
@@ -290,6 +299,10 @@ class BasicEngine {
   void enter_impacts();
 
   // engine_overlap.cpp
+  void count_meeting(const Contact& contact);
+  std::uint32_t meetings(const Contact& contact) const;
+  bool is_hemmed_in(const Contact& contact) const;
+  bool is_beyond_hope(const Contact& contact) const;
   bool is_stuck(const Contact& contact, Real time);
   void stop_around(const Contact& contact, Real time);
   void stop_cluster();
@@ -325,6 +338,7 @@ class BasicEngine {
   std::uint32_t curved_count_ = 0;         // bodies not in straight flight
   std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
   bool is_everything_pending_ = false;
+  std::array<std::int64_t, 4> looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
   std::vector<std::uint32_t> touched_, pending_, frozen_;
   std::vector<std::uint32_t> near_;
   std::vector<Vector2> cluster_friction_;  // impulses per mass
@@ -339,6 +353,8 @@ class BasicEngine {
   std::vector<Real> column_, share_;              // and the part within
   Real instant_begin_ = -1.0;                   // of the events counted as coming at once
   std::uint64_t events_at_once_ = 0;
+  Real gap_max_ = cluster_gap;                  // up to which a contact belongs to a cluster
+  std::uint32_t blocked_ = 0;                   // the touch at which find_pushing() failed
   bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
   std::optional<Goal> goal_;
   Counters counters_;

@@ -1,5 +1,6 @@
 // Pressed clusters whose normals turn: taken out of contact in one step, and frozen where they are in equilibrium.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "game/physics/engine.h"
@@ -13,6 +14,8 @@ constexpr std::size_t cluster_max = 256;
 constexpr std::size_t direct_max = 96;            // contacts
 constexpr int sweeps_max = 500;
 constexpr double glancing_part = 16.0;             // of contact_time
+constexpr std::uint32_t long_series = 64;         // of hops
+constexpr double loose_gaps = 8.0;
 constexpr double creep_speed = 1e-9;              // m/s; without thrust, a cluster that moves no faster stops
 }  // namespace
 
@@ -37,7 +40,7 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   for (const Touch& contact : touches_) given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
   if (touches_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
-  if (pressure <= 0.0 && given_back == 1.0) return false;
+  if (pressure <= 0.0 && given_back == 1.0 && !is_hemmed_in(c)) return false;
   note(EventKind::hop, time, c.body, c.partner);
   bool may_freeze = thrust_max > 0.0;
   for (const std::uint32_t body : joint_) {
@@ -45,9 +48,9 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     if (time - rhythm.last_hop > 8.0 * contact_time_) rhythm.hops = 0;
     rhythm.last_hop = time;
   }
-  may_freeze = may_freeze && rhythms_[c.body].hops % 4 == 0;
+  const std::uint32_t hops = rhythms_[c.body].hops;
   for (const std::uint32_t body : joint_) ++rhythms_[body].hops;
-  if (may_freeze && freeze(thrust_max)) {
+  if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) || (hops >= long_series && hops % 16 == 0 && freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;
   }
@@ -117,7 +120,7 @@ template <class Real>
 void BasicEngine<Real>::add_contact(std::uint32_t place, Partner p, Real speed_max, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
-  if (c.gap.distance > cluster_gap) return;
+  if (c.gap.distance > gap_max_) return;
   const Vector2 there = is_fixed(p) ? Vector2(0.0, 0.0) : at(p, time).velocity;
   if (std::abs(c.gap.normal.dot(velocity_of(body) - there)) > speed_max) return;
   if (is_fixed(p)) {
@@ -175,8 +178,53 @@ void BasicEngine<Real>::solve_cluster(Real separation) {
   for (Touch& touch : touches_) touch.wanted = separation;
   closing_.resize(touches_.size());
   std::iota(closing_.begin(), closing_.end(), 0u);
-  if (touches_.size() <= direct_max && find_pushing()) joint_velocities_ = trial_velocities_;
-  else sweep_cluster(separation);
+  for (bool is_jammed = false; touches_.size() <= direct_max; is_jammed = true) {
+    if (find_pushing()) {
+      joint_velocities_ = trial_velocities_;
+      if (is_jammed) hold_jammed();
+      return;
+    }
+    if (!give_way()) break;
+  }
+  sweep_cluster(separation);
+}
+
+/// After find_pushing() met contacts that cannot all part, for they hold what is between them from opposite sides: these shall only not close. Answers whether that asks for less.
+template <class Real>
+bool BasicEngine<Real>::give_way() {
+  if (blocked_ == fixed_place) return false;
+  bool is_less = touches_[blocked_].wanted > 0.0;
+  touches_[blocked_].wanted = 0.0;
+  for (std::size_t k = 0; k < share_.size() && k < pushing_.size(); ++k) {
+    Touch& touch = touches_[pushing_[k]];
+    if (share_[k] >= 0.0) continue;
+    is_less = is_less || touch.wanted > 0.0;
+    touch.wanted = 0.0;
+  }
+  return is_less;
+}
+
+/// Bodies that are held from opposite sides along an axis get the same velocity along it, to the bit (none, where something fixed holds them): what rounding leaves would let
+/// them meet again at once, and for ever.
+template <class Real>
+void BasicEngine<Real>::hold_jammed() {
+  const auto fixed = static_cast<std::uint32_t>(joint_.size());
+  const Real slowest = 1e-9 * joint_speed();
+  std::vector<std::uint32_t> leaders(fixed + 1);
+  const auto leader = [&](std::uint32_t place) {
+    while (leaders[place] != place) place = leaders[place];
+    return place;
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    std::iota(leaders.begin(), leaders.end(), 0u);
+    for (const Touch& c : touches_) {
+      if (c.wanted > 0.0 || c.normal[1 - axis] != 0.0 || std::abs(parting(c, joint_velocities_)) > slowest) continue;
+      const std::uint32_t one = leader(c.body), two = leader(c.other == fixed_place ? fixed : c.other);
+      leaders[std::min(one, two)] = std::max(one, two);
+    }
+    for (std::uint32_t place = 0; place < fixed; ++place)
+      if (const std::uint32_t first = leader(place); first != place) joint_velocities_[place][axis] = first == fixed ? Real(0.0) : joint_velocities_[first][axis];
+  }
 }
 
 /// Gauss-Seidel on impulses: for clusters so large that the direct way would take milliseconds, at the price of poor convergence where light bodies lie between heavy ones. Where
@@ -232,6 +280,20 @@ bool BasicEngine<Real>::freeze(Real thrust_max) {
     if (acceleration.norm() > 1e-6 * thrust_max) return false;
   stop_cluster();
   return true;
+}
+
+/// A pile that hops for long is seldom in contact everywhere at once: gaps eight times as wide count as closed for the question whether it could stand. If it could not, the
+/// cluster is what gather() found before.
+template <class Real>
+bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real time) {
+  gap_max_ = loose_gaps * cluster_gap;
+  gather(c, std::numeric_limits<Real>::infinity(), time);
+  gap_max_ = cluster_gap;
+  Real thrust_max = 0.0;
+  for (const std::uint32_t body : joint_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
+  if (freeze(thrust_max)) return true;
+  gather(c, speed_max, time);
+  return false;
 }
 
 template class BasicEngine<double>;

@@ -92,18 +92,25 @@ Real BasicEngine<Real>::speed_lost(Real speed, Real push, Real drag) const {
   return drag == 0.0 ? -speed / push : log1p_of(-drag * speed / push) / drag;
 }
 
-/// Aims the friction of the group's pucks against the velocities that they will have half-way to the next time that it is aimed, and answers how long that is. None where
-/// they keep their direction. Where the group stands, the friction of pucks at rest remains to be found (solve_forces).
+/// Friction against the velocities of the group's pucks as they are; of those at rest along the axis of a group that may stand, it remains to be found (solve_forces).
+template <class Real>
+void BasicEngine<Real>::face_friction(const std::vector<std::uint32_t>& members) {
+  for (const std::uint32_t member : members)
+    if (is_slowed(member)) slowing_[member] = friction_along(velocity_of(member));
+}
+
+/// Whether a puck of the group slides across its axis, so that its friction turns.
+template <class Real>
+bool BasicEngine<Real>::has_sliders(int axis, const std::vector<std::uint32_t>& members) const {
+  return std::any_of(members.begin(), members.end(), [&](std::uint32_t member) { return is_slowed(member) && velocity_of(member)[1 - axis] != 0.0; });
+}
+
+/// Aims the friction of the group's sliding pucks against the velocities that they will have half-way to the next time that it is aimed, and answers when that is; never where
+/// they keep their direction.
 template <class Real>
 Real BasicEngine<Real>::aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time) {
   const int across = 1 - axis;
-  bool has_pucks = false;
-  for (const std::uint32_t member : members) {
-    if (!is_slowed(member)) continue;
-    slowing_[member] = friction_along(velocity_of(member));
-    has_pucks = true;
-  }
-  if (!has_pucks || is_group_fixed(axis, members)) return infinity;
+  if (is_group_fixed(axis, members) || std::none_of(members.begin(), members.end(), [&](std::uint32_t member) { return is_slowed(member); })) return infinity;
   const Real speed = velocity_of(members.front())[axis];
   Real mass = 0.0, drag = 0.0;
   for (const std::uint32_t member : members) mass += builds_[member].mass, drag += builds_[member].mass * own_drag(member);

@@ -63,10 +63,9 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   counters_.evaluations += (a.time < time) + (b.time < time);
   counters_.bodies_touched += 2;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * (x * x + y * y));
-  a.x = ax, a.y = ay, b.x = bx, b.y = by;
-  a.vx += impulse * a.inverse_mass * x, a.vy += impulse * a.inverse_mass * y;
-  b.vx -= impulse * b.inverse_mass * x, b.vy -= impulse * b.inverse_mass * y;
-  a.time = std::max(a.time, time), b.time = std::max(b.time, time);
+  const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
+  a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
+  b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
   predict(low);
   predict(high);
@@ -89,14 +88,23 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   if (is_body(p)) wake(p, time), rebase_companions(p, time);
   const Contact c = contact(body, p, time);
   if (spec_.allow_overlap && is_stuck(c, time)) return stop_around(c, time);
+  count_meeting(c);
+  if (is_beyond_hope(c)) return stop_around(c, time);
   const Vector2& normal = c.gap.normal;
   const Real approach = normal.dot(velocity_of(p) - velocity_of(body)), given_back = restitution(body, p);
-  if (approach < rest_speed_ || given_back < 1.0) {
+  if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
-    if (approach < rest_speed_ && pressing > press_min && can_rest(c)) return rest(c, time);
+    // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled by the instant's: it comes to rest so often at one instant, then it hops.
+    const auto has_rested_enough = [&](std::uint32_t b) {
+      Rhythm& rhythm = rhythms_[b];
+      rhythm.repeats = rhythm.instant == time ? rhythm.repeats + 1 : 1;
+      rhythm.instant = time;
+      return rhythm.repeats > 8;
+    };
+    if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough(body))) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
-    if (is_pressed_hard(body, p, approach, time) && hop(c, approach, pressing, time)) return;
+    if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) && hop(c, approach, pressing, time)) return;
   }
   if (is_crowded(body, p) && collide_together(c, time)) return;
   bounce(c, given_back, time);

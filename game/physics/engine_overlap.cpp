@@ -8,7 +8,32 @@ namespace rink::physics {
 namespace {
 /// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
+constexpr std::uint32_t hemmed_in_min = 10'000;
 }  // namespace
+
+/// Counts the impacts of each body at the instant at hand.
+template <class Real>
+void BasicEngine<Real>::count_meeting(const Contact& c) {
+  for (const Partner p : {c.body, c.partner}) {
+    if (is_fixed(p)) continue;
+    Rhythm& rhythm = rhythms_[p];
+    rhythm.meetings = rhythm.meeting_instant == instant_begin_ ? rhythm.meetings + 1 : 1;
+    rhythm.meeting_instant = instant_begin_;
+  }
+}
+
+template <class Real>
+std::uint32_t BasicEngine<Real>::meetings(const Contact& c) const {
+  return std::max(rhythms_[c.body].meetings, is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings);
+}
+
+/// Whether somebody has so little room that even lossless impacts at one instant do not end: elastic series between unequal masses take fewer.
+template <class Real>
+bool BasicEngine<Real>::is_hemmed_in(const Contact& c) const { return meetings(c) > hemmed_in_min; }
+
+/// Whether nothing that parts them has helped.
+template <class Real>
+bool BasicEngine<Real>::is_beyond_hope(const Contact& c) const { return meetings(c) > 2 * hemmed_in_min; }
 
 /// Counts the impact at `time`; whether one of the two has had its fill.
 template <class Real>

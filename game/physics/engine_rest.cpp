@@ -126,8 +126,8 @@ void BasicEngine<Real>::solve_forces(int axis, const std::vector<std::uint32_t>&
 /// Lets go what is pulled apart, then gives each remaining part of the group one acceleration and one drag, bitwise equal for all its members.
 template <class Real>
 void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& members, Real time) {
-  Real turn_time = infinity;
-  if (is_slowed()) calm(axis, members), turn_time = aim_friction(axis, members, time);
+  // Who is pulled is judged by the friction of this instant, as the next impact is, and not by that of an arc.
+  if (is_slowed()) calm(axis, members), face_friction(members);
   const Real speed = velocity_of(members.front())[axis];
   solve_forces(axis, members, speed, true);
   const auto is_pulled = [&](const Hold& hold) {
@@ -149,6 +149,7 @@ void BasicEngine<Real>::share(int axis, const std::vector<std::uint32_t>& member
       std::erase_if(holds_, is_in_part);
       for (const std::uint32_t alone : part) share_part(axis, {alone}, time);
     } else {
+      const Real turn_time = is_slowed() ? aim_friction(axis, part, time) : Real(infinity);
       share_part(axis, part, time);
       for (Hold& hold : holds_)
         if (is_in_group(hold, axis, part)) hold.turn_time = turn_time;
@@ -201,7 +202,10 @@ void BasicEngine<Real>::set_pull_times(int axis, const std::vector<std::uint32_t
     const Real now = forces[i++], finally = hold.force;
     Real scale = 0.0;
     for (const std::uint32_t member : part) scale += builds_[member].mass * (std::abs(builds_[member].thrust[axis]) + own_drag(member) * std::abs(speed));
-    if (finally < -1e-12 * scale) hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
+    if (finally >= -1e-12 * scale) continue;
+    hold.pull_time = time - log1p_of(-now / (now - finally)) / drag;
+    // An arc's friction is not quite that of its beginning: a contact that is pressed now and pulled along the arc would come and go at one instant.
+    if (is_slowed() && has_sliders(axis, part)) hold.pull_time = std::max(hold.pull_time, time + contact_time_);
   }
 }
 

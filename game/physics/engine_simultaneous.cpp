@@ -183,6 +183,7 @@ template <class Real>
 bool BasicEngine<Real>::find_pushing() {
   trial_velocities_ = joint_velocities_;
   pushing_.clear();
+  blocked_ = fixed_place;
   for (const std::uint32_t i : closing_) touches_[i].impulse = 0.0;
   for (std::size_t steps_left = 20 * closing_.size() + 20; steps_left > 0;) {
     Real most = 0.25 * rest_of_closing<Real> * joint_speed();
@@ -194,7 +195,7 @@ bool BasicEngine<Real>::find_pushing() {
     if (next == fixed_place) return true;
     while (!push_until_blocked(next))
       if (--steps_left == 0) return false;
-    if (touches_[next].impulse == 0.0) return false;
+    if (touches_[next].impulse == 0.0) return blocked_ = next, false;
   }
   return false;
 }

@@ -11,7 +11,7 @@ namespace rink::physics {
 namespace {
 
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 // Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
 
@@ -68,11 +68,12 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
   auto& [x, y, vx, vy, time, radius] = static_cast<Flight<Real>&>(body);
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
-  auto& [window_start, last_hop, impacts, hops, instant, repeats] = rhythm;
+  auto& [window_start, last_hop, impacts, hops, instant, repeats, meeting_instant, meetings] = rhythm;
   return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) && stream.choice(body.kind, BodyKind::post) &&
          stream.numbers(body.material, body.flags, body.mouth, mass, inverse_mass) &&
          stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) && stream.choice(half, Half::both) &&
-         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start, last_hop, impacts, hops, instant, repeats);
+         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start, last_hop, impacts, hops, instant, repeats,
+                        meeting_instant, meetings);
 }
 
 template <class Stream, class Hold>

@@ -21,9 +21,13 @@ class BasicEventHeap {
   void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher);
   std::uint32_t first(Real until) const { return heap_.empty() || heap_.front().time > until ? none : heap_.front().body; }
   Real time(std::uint32_t body) const { return times_[body]; }
+  /// The twin of the first is one of the next two, if it is there; whoever else may follow is above or right below it.
   bool is_followed_within(Real window) const {
-    const Real end = heap_.front().time + window;
-    return std::any_of(heap_.begin() + 1, heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, heap_.size())), [end](const Entry& e) { return e.time <= end; });
+    const Entry& first = heap_.front();
+    const Real end = first.time + window;
+    return std::any_of(heap_.begin() + 1, heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())), [&](const Entry& e) {
+      return e.time <= end && !(e.time == first.time && e.lower == first.lower && e.higher == first.higher);
+    });
   }
 
  private:

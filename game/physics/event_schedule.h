@@ -23,6 +23,8 @@ class BasicEventSchedule {
   }
   std::uint32_t first(Real until) { return is_heap_ ? heap_.first(until) : calendar_.first(until); }
   Real time(std::uint32_t body) const { return is_heap_ ? heap_.time(body) : calendar_.time(body); }
+  /// The calendar, if it is that.
+  const BasicEventQueue<Real>* calendar() const { return is_heap_ ? nullptr : &calendar_; }
   bool is_followed_within(Real window) const { return is_heap_ ? heap_.is_followed_within(window) : calendar_.is_followed_within(window); }
 
  private:

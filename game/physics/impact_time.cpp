@@ -2,6 +2,7 @@
 #include "game/physics/impact_time.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace rink::physics {
 
@@ -38,6 +39,17 @@ Real closing_acceleration_max(const BasicRelativeMotion<Real>& motion, const typ
   return sum;
 }
 
+template <class Real>
+Real slowest_fading(const BasicRelativeMotion<Real>& motion) {
+  Real slowest = std::numeric_limits<Real>::infinity();
+  for (const BasicMotion<Real>* body : {&motion.a, &motion.b})
+    for (int axis = 0; axis < 2; ++axis)
+      if (body->acceleration[axis] != 0.0 || (body->drag[axis] != 0.0 && body->velocity[axis] != 0.0)) slowest = std::min(slowest, body->drag[axis]);
+  return slowest;
+}
+
+template double slowest_fading(const RelativeMotion&);
+template long double slowest_fading(const BasicRelativeMotion<long double>&);
 template struct BasicRoundedBox<double>;
 template struct BasicRoundedBox<long double>;
 template struct BasicRelativeMotion<double>;

@@ -88,6 +88,10 @@ std::optional<Real> first_contact(const BasicRelativeMotion<Real>& motion, const
 template <class Real>
 Real closing_acceleration_max(const BasicRelativeMotion<Real>& motion, const typename BasicRelativeMotion<Real>::Sample& sample, const BasicVector2<Real>& normal);
 
+/// The rate at which the slowest of the accelerations that act fades [1/s]; infinite if none acts.
+template <class Real>
+Real slowest_fading(const BasicRelativeMotion<Real>& motion);
+
 namespace detail {
 
 /// The time in which a gap cannot close: `rate` is its growth, `closing` bounds its acceleration towards 0. Infinite if it never can.
@@ -105,6 +109,7 @@ template <class Real, class Shape>
 std::optional<Real> first_contact(const BasicRelativeMotion<Real>& motion, const Shape& shape, std::type_identity_t<Real> start, std::type_identity_t<Real> limit,
                                   std::type_identity_t<Real> tolerance) {
   constexpr int step_max = 4000;     // ordinary cases need 2 to 8, the worst grazing ones 60
+  constexpr int few_steps = 8;       // then it may be worth asking whether a gap that grows can close at all
   constexpr Real least_step = 1e-9;  // s; while in contact and not closing: what could be missed is below 1e-17 m
   Real time = start;
   for (int step = 0; step < step_max && time <= limit; ++step) {
@@ -112,6 +117,8 @@ std::optional<Real> first_contact(const BasicRelativeMotion<Real>& motion, const
     const BasicGap<Real> gap = shape.gap(sample.offset);
     const Real rate = gap.normal.dot(sample.velocity), closing = closing_acceleration_max(motion, sample, gap.normal);
     const Real distance = gap.distance > 0.0 ? gap.distance : Real(0.0);
+    // What closes at K, fading at g, takes no more than K/g from the rate. Near its terminal speed a body accelerates by rounding alone, and never fades for good.
+    if (step > few_steps && rate > 0.0 && rate * slowest_fading(motion) > 1.01 * closing) return std::nullopt;
     Real wait = detail::safe_step(distance, rate, closing);
     if (wait == std::numeric_limits<Real>::infinity()) return std::nullopt;
     if (gap.distance <= tolerance) {

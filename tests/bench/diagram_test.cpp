@@ -117,7 +117,7 @@ TEST(Stability, ExactEngineSurvivesWhatIsQuickToTry) {
     if (trial.name == "dense" || trial.name == "crowd" || trial.name == "collapse") continue;
     const Wear wear = endure(trial, {"exact"}, frame);
     EXPECT_TRUE(wear.has_survived()) << trial.name;
-    EXPECT_LT(wear.overlap, 1e-9) << trial.name;
+    EXPECT_TRUE(wear.overlap < 1e-9 || trial.world.allow_overlap) << trial.name << ": " << wear.overlap;
     EXPECT_LT(wear.energy_error, trial.is_conservative() ? 1e-12 : 1e-6) << trial.name;
   }
 }

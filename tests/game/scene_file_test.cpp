@@ -135,9 +135,15 @@ TEST(SceneFile, HasAFingerprintThatTellsFrictionAndSpin) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(fingerprints[i], fingerprints[j]) << i << " " << j;
 }
 
+TEST(SceneFile, RefusesKeysSoDeepThatNoParserBearsThem) {
+  std::string table = "[a";
+  for (int k = 0; k < 50'000; ++k) table += ".a";
+  EXPECT_THAT(refusal_in_field(table + "]\n"), AllOf(HasSubstr("bad.toml:4"), HasSubstr("more than 1000 dots")));
+}
+
 TEST(SceneFile, RefusesFrictionThatHasNoMeaning) {
   EXPECT_THAT(refusal_in_field("[friction]\nbats = 0.1\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.bats is 0.1"), HasSubstr("no closed form")));
-  EXPECT_THAT(refusal_in_field("[friction]\npucks = -0.1\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.pucks is -0.1"), HasSubstr("from 0 to 1e+06")));
+  EXPECT_THAT(refusal_in_field("[friction]\npucks = -0.1\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.pucks is -0.1"), HasSubstr("from 0 to 10000")));
   EXPECT_THAT(refusal_in_field("[friction]\npucks = inf\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("friction.pucks is inf")));
   EXPECT_THAT(refusal_in_field("[materials]\nfriction = -1.0\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("materials.friction is -1")));
   EXPECT_THAT(refusal_in_field("[materials]\ntangential_restitution = 1.5\n"), AllOf(HasSubstr("bad.toml:5"), HasSubstr("from 0 to 1")));
@@ -188,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"goal_width = 2.5\n", "bad.toml:4", "field.goal_width is 2.5", "from 0 to 2"},
         BadValue{"goal_width = nan\n", "bad.toml:4", "field.goal_width is nan", "a number"},
         BadValue{"material = \"felt\"\n", "bad.toml:4", "felt", "plain"},
-        BadValue{"[drag]\npucks = -0.1\n", "bad.toml:5", "drag.pucks is -0.1", "from 0 to 1e+06"},
+        BadValue{"[drag]\npucks = -0.1\n", "bad.toml:5", "drag.pucks is -0.1", "from 0 to 10000"},
         BadValue{"[drag]\nbats = inf\n", "bad.toml:5", "drag.bats", "a number"},
         BadValue{"[materials]\nrestitution = 1.5\n", "bad.toml:5", "materials.restitution is 1.5", "from 0 to 1"},
         BadValue{"[materials]\nnames = [\"a\", \"a\"]\n", "bad.toml:5", "materials.names", "each name once"},
@@ -199,12 +205,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[[puck]]\nposition = [1.0, nan]\n", "bad.toml:5", "puck.position", "two numbers"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nvelocity = [inf, 0.0]\n", "bad.toml:6", "puck.velocity", "from -1e+06 to 1e+06"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = 0.0\n", "bad.toml:6", "puck.radius is 0", "from 1e-05 to 1e+09"},
-        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = -1.0\n", "bad.toml:6", "puck.mass is -1", "from 1e-20 to 1e+20"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = -1.0\n", "bad.toml:6", "puck.mass is -1", "from 1e-06 to 1e+14"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = \"big\"\n", "bad.toml:6", "puck.radius is 'big'", "a number"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = nan\n", "bad.toml:6", "puck.radius is nan", "from 1e-05 to 1e+09"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = -0.04\n", "bad.toml:6", "puck.radius is -0.04", "from 1e-05 to 1e+09"},
-        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = 0.0\n", "bad.toml:6", "puck.mass is 0", "from 1e-20 to 1e+20"},
-        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = nan\n", "bad.toml:6", "puck.mass is nan", "from 1e-20 to 1e+20"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = 0.0\n", "bad.toml:6", "puck.mass is 0", "from 1e-06 to 1e+14"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = nan\n", "bad.toml:6", "puck.mass is nan", "from 1e-06 to 1e+14"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nvelocity = [0.0, nan]\n", "bad.toml:6", "puck.velocity", "from -1e+06 to 1e+06"},
         BadValue{"[[puck]]\nposition = [1.0, -inf]\n", "bad.toml:5", "puck.position", "two numbers"},
         BadValue{"[[puck]]\nposition = [1.0, -1.0]\n", "bad.toml:4", "puck-0 at [1, -1]", "not wholly within the field"},
@@ -213,10 +219,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [-0.1, 0.1]\n", "bad.toml:6", "bat.half_extent", "from 1e-05 to 1e+09"},
         BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, nan]\n", "bad.toml:6", "bat.half_extent", "from 1e-05 to 1e+09"},
         BadValue{"[[bat]]\nposition = [2.0, 1.0]\nhalf_extent = [0.1, 1.1]\n", "bad.toml:4", "bat-0", "not wholly within the field"},
-        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = nan\n", "bad.toml:7", "bat.thrust is nan", "from 0 to 1e+06"},
-        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nmass = -0.5\n", "bad.toml:7", "bat.mass is -0.5", "from 1e-20 to 1e+20"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = nan\n", "bad.toml:7", "bat.thrust is nan", "from 0 to 10000"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nmass = -0.5\n", "bad.toml:7", "bat.mass is -0.5", "from 1e-06 to 1e+14"},
         BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nradius = 0.0\n", "bad.toml:7", "population.radius is 0", "from 1e-05 to 1e+09"},
-        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmass = nan\n", "bad.toml:7", "population.mass is nan", "from 1e-20 to 1e+20"},
+        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmass = nan\n", "bad.toml:7", "population.mass is nan", "from 1e-06 to 1e+14"},
         BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmean_speed = -1.0\n", "bad.toml:7", "population.mean_speed is -1", "from 0 to 1e+06"},
         BadValue{"[[population]]\nkind = \"puck\"\ndensity = inf\n", "bad.toml:6", "population.density is inf", "from 0 up"},
         BadValue{"[[puck]]\nposition = [3.99, 1.0]\n", "bad.toml:4", "puck-0", "not wholly within the field of 4 m x 2 m"},
@@ -236,11 +242,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[[key]]\ntime = -1.0\nbat = \"ghost\"\n", "bad.toml:5", "key.time is -1", "from 0 to 1e+09"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nvelocity = [1e300, 0.0]\n", "bad.toml:6", "puck.velocity is [1e+300, 0.0]", "from -1e+06 to 1e+06"},
         BadValue{"[[puck]]\nposition = [1.0, 1.0]\nradius = 1e-300\n", "bad.toml:6", "puck.radius is 1e-300", "from 1e-05"},
-        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = 1e-300\n", "bad.toml:6", "puck.mass is 1e-300", "from 1e-20"},
+        BadValue{"[[puck]]\nposition = [1.0, 1.0]\nmass = 1e-300\n", "bad.toml:6", "puck.mass is 1e-300", "from 1e-06"},
         BadValue{"[materials]\nfriction = 1e300\n[[puck]]\nposition = [1.0, 1.0]\n", "bad.toml:5", "materials.friction is 1e+300", "from 0 to 1e+06"},
         BadValue{"[materials]\nfriction = 1.0\n[[puck]]\nposition = [1.0, 1.0]\nspin = 1e300\n", "bad.toml:8", "puck.spin is 1e+300", "from -1e+09 to 1e+09"},
-        BadValue{"[drag]\npucks = 1e300\n", "bad.toml:5", "drag.pucks is 1e+300", "from 0 to 1e+06"},
-        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = 1e300\n", "bad.toml:7", "bat.thrust is 1e+300", "from 0 to 1e+06"},
+        BadValue{"[drag]\npucks = 1e300\n", "bad.toml:5", "drag.pucks is 1e+300", "from 0 to 10000"},
+        BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = 1e300\n", "bad.toml:7", "bat.thrust is 1e+300", "from 0 to 10000"},
         BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmean_speed = 1e300\n", "bad.toml:7", "population.mean_speed is 1e+300", "from 0 to 1e+06"}));
 
 TEST(SceneFile, MayAllowOverlapAtTheStartButNotBodiesOutsideTheField) {

@@ -79,6 +79,24 @@ TEST_P(Pressed, RowOfPucksIntoAWall) {
   for (std::size_t i = 0; i < 5 && GetParam() < 1.0; ++i) EXPECT_NEAR(world_.position(row[i]).x(), 0.04 + 0.08 * static_cast<double>(i), 1e-5);
 }
 
+TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
+  World world(rink_of(40, 2, GetParam(), 0.2, 1.0));
+  const BodyId bat = world.add(bat_at(1, 1));
+  std::vector<BodyId> row;
+  for (int i = 0; i < 4; ++i) row.push_back(world.add(puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
+  Watch watch(world, {bat});
+  watch.set_thrust(bat, {6, 0});
+  watch.run(4.0);
+  if (GetParam() > 0.5) return;  // bounces on
+  for (const BodyId puck : row) {
+    EXPECT_TRUE(world.is_held(puck));
+    EXPECT_EQ(world.velocity(puck).x(), world.velocity(bat).x());
+    EXPECT_EQ(world.motion(puck).acceleration.x(), world.motion(bat).acceleration.x());
+    EXPECT_EQ(world.motion(puck).drag.x(), world.motion(bat).drag.x());
+  }
+  EXPECT_EQ(watch.events_in(0.5), 0u);
+}
+
 TEST_P(Pressed, PucksSideBySideIntoAWall) {
   const BodyId bat = world_.add(bat_at(1, 1));
   for (int i = 0; i < 5; ++i) world_.add(puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));

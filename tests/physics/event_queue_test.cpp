@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/physics/event_heap.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics {
@@ -73,6 +74,25 @@ TEST(EventQueue, KnowsWhetherAnotherEventFollowsClosely) {
     queue.set(body, std::numeric_limits<double>::infinity(), body, body);
   }
   EXPECT_LE(said_in_vain, 50u);
+}
+
+TEST(EventQueue, DoesNotTakeAnImpactForItsOwnSuccessorBecauseItIsNotedForBothBodies) {
+  EventQueue calendar;
+  BasicEventHeap<double> heap;
+  const auto set = [&](std::uint32_t body, double time, std::uint32_t lower, std::uint32_t higher) {
+    calendar.set(body, time, lower, higher), heap.set(body, time, lower, higher);
+  };
+  calendar.resize(6), heap.resize(6);
+  set(0, 1e-4, 0, 1), set(1, 1e-4, 0, 1), set(4, 0.5, 4, 4), set(5, 0.5, 5, 5);
+  ASSERT_LE(calendar.first(1.0), 1u);  // of either body: it is one impact
+  ASSERT_LE(heap.first(1.0), 1u);
+  EXPECT_FALSE(calendar.is_followed_within(1e-12));
+  EXPECT_FALSE(heap.is_followed_within(1e-12));
+  set(2, 1e-4, 1, 2);  // a third one touches the second at the same time
+  ASSERT_LE(calendar.first(1.0), 1u);  // of either body: it is one impact
+  ASSERT_LE(heap.first(1.0), 1u);
+  EXPECT_TRUE(calendar.is_followed_within(1e-12));
+  EXPECT_TRUE(heap.is_followed_within(1e-12));
 }
 
 TEST(EventQueue, KeepsTheOrderOfASortedSetWhileBodiesComeRestAndGo) {

@@ -29,7 +29,7 @@ std::vector<Flight<double>> crowd_of(std::mt19937_64& random, std::uint32_t coun
   return discs;
 }
 
-TEST(FirstMeeting, HasTheSameBitsTwoAtATimeAsOneByOne) {
+TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
   std::mt19937_64 random(5);
   int met = 0, tied = 0;
   for (int round = 0; round < 20'000; ++round) {
@@ -44,6 +44,11 @@ TEST(FirstMeeting, HasTheSameBitsTwoAtATimeAsOneByOne) {
     ASSERT_EQ(first.time, expected.time) << "round " << round;
     ASSERT_EQ(first.other, expected.other) << "round " << round;
     ASSERT_EQ(first.second_time, expected.second_time) << "round " << round;
+#if defined(__SSE2__)
+    const Meeting<double> in_pairs = first_meeting_in_pairs(discs.data(), 0, near.data(), count, latest);
+    ASSERT_EQ(in_pairs.time, expected.time) << "round " << round;
+    ASSERT_EQ(in_pairs.second_time, expected.second_time) << "round " << round;
+#endif
     met += expected.time < std::numeric_limits<double>::infinity();
     tied += expected.time < std::numeric_limits<double>::infinity() && expected.time == expected.second_time;
   }
@@ -55,7 +60,7 @@ TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
   std::mt19937_64 random(6);
   for (int round = 0; round < 2'000; ++round) {
     const std::vector<Flight<double>> discs = crowd_of(random, 12);
-    std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0};
+    std::vector<std::uint32_t> near{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0, 0, 0};
     const Meeting<double> first = first_meeting(discs.data(), 0, near.data(), 11, std::numeric_limits<double>::infinity());
     if (first.other > 11) continue;
     const Flight<double>&a = discs[0], &b = discs[first.other];
