@@ -98,14 +98,23 @@ class BasicEngine {
   struct Law {
     Vector2 acceleration, drag;
   };
+  /// How often something came at the last instant at which it did.
+  struct Tally {
+    Real instant = -1.0;
+    std::uint32_t count = 0;
+    /// Once more at `time`; answers how often now.
+    std::uint32_t add(Real time) {
+      count = instant == time ? count + 1 : 1;
+      instant = time;
+      return count;
+    }
+  };
   /// How densely impacts follow each other; part of the physical history.
   struct Rhythm {
     Real window_start = -1.0, last_hop = -1.0;
     std::uint32_t impacts = 0, hops = 0;
-    Real instant = -1.0;  // of the last impact and how many it had then; where bodies may start in overlap
-    std::uint32_t repeats = 0;
-    Real meeting_instant = -1.0;  // the last instant of impacts that are not simple ones, and how many there were at it
-    std::uint32_t meetings = 0;
+    Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks that friction slows
+    Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
   };
   struct Slot {
     Real impact_time, crossing_time;
@@ -280,6 +289,7 @@ class BasicEngine {
   bool freeze(Real thrust_max);
   void part_cluster(Real separation, Real gain_max);
   Real turning() const;
+  Real joint_thrust() const;
   void solve_cluster(Real separation);
   bool give_way();
   bool freeze_loosely(const Contact& contact, Real speed_max, Real time);

@@ -35,8 +35,8 @@ bool BasicEngine<Real>::is_pressed_hard(std::uint32_t body, Partner p, Real appr
 template <class Real>
 bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real time) {
   gather(c, std::max<Real>(rest_speed_, 2.0 * approach), time);
-  Real thrust_max = 0.0, given_back = 1.0;
-  for (const std::uint32_t body : joint_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
+  const Real thrust_max = joint_thrust();
+  Real given_back = 1.0;
   for (const Touch& contact : touches_) given_back = std::min(given_back, contact.restitution);
   const Real pressure = std::max(thrust_max, pressing);
   if (touches_.size() < 2 && (pressure <= 0.0 || approach >= rest_speed_)) return false;
@@ -56,8 +56,7 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
   }
   joint_velocities_.clear();
   for (const std::uint32_t body : joint_) joint_velocities_.push_back(velocity_of(body));
-  Real speed = 0.0;
-  for (const Vector2& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
+  const Real speed = joint_speed();
   if (thrust_max == 0.0 && speed < still_speed()) {
     std::fill(joint_velocities_.begin(), joint_velocities_.end(), Vector2(0.0, 0.0));
   } else {
@@ -75,6 +74,14 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     bodies_[joint_[place]].vy = joint_velocities_[place].y();
   }
   return true;
+}
+
+/// The strongest thrust in the cluster [m/s^2].
+template <class Real>
+Real BasicEngine<Real>::joint_thrust() const {
+  Real most = 0.0;
+  for (const std::uint32_t body : joint_) most = std::max(most, builds_[body].thrust.norm());
+  return most;
 }
 
 /// The acceleration at which contacts close because their normals turn, at most [m/s^2]: v^2/R.
@@ -289,9 +296,7 @@ bool BasicEngine<Real>::freeze_loosely(const Contact& c, Real speed_max, Real ti
   gap_max_ = loose_gaps * cluster_gap;
   gather(c, std::numeric_limits<Real>::infinity(), time);
   gap_max_ = cluster_gap;
-  Real thrust_max = 0.0;
-  for (const std::uint32_t body : joint_) thrust_max = std::max(thrust_max, builds_[body].thrust.norm());
-  if (freeze(thrust_max)) return true;
+  if (freeze(joint_thrust())) return true;
   gather(c, speed_max, time);
   return false;
 }

@@ -95,13 +95,8 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
   if (approach < rest_speed_ || given_back < 1.0 || is_hemmed_in(c)) {
     const Real pressing = normal.dot(acceleration_of(p) - acceleration_of(body));
     // A body in an arc of friction (engine_friction.cpp) may be pressed by the arc's law and pulled by the instant's: it comes to rest so often at one instant, then it hops.
-    const auto has_rested_enough = [&](std::uint32_t b) {
-      Rhythm& rhythm = rhythms_[b];
-      rhythm.repeats = rhythm.instant == time ? rhythm.repeats + 1 : 1;
-      rhythm.instant = time;
-      return rhythm.repeats > 8;
-    };
-    if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough(body))) return rest(c, time);
+    const auto has_rested_enough = [&] { return rhythms_[body].repeats.add(time) > 8; };
+    if (approach < rest_speed_ && pressing > press_min && can_rest(c) && !(is_slowed() && has_rested_enough())) return rest(c, time);
     note_impact(body, time);
     if (!is_fixed(p)) note_impact(p, time);
     if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) && hop(c, approach, pressing, time)) return;

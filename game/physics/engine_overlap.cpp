@@ -1,4 +1,4 @@
-// Bodies that started in overlap and are pushed to and fro at one instant: time must advance all the same.
+// Bodies that are pushed to and fro at one instant, for they started in overlap or have no room: time must advance all the same.
 #include <limits>
 
 #include "game/physics/engine.h"
@@ -8,23 +8,20 @@ namespace rink::physics {
 namespace {
 /// Impacts of one body at one and the same instant. Free bodies in overlap part after a few; a body that lies in two fixed ones at once never would.
 constexpr std::uint32_t repeats_max = 100;
+/// Likewise within roundings of the clock: more than elastic series between masses 1e12 apart take.
 constexpr std::uint32_t hemmed_in_min = 10'000;
 }  // namespace
 
 /// Counts the impacts of each body at the instant at hand.
 template <class Real>
 void BasicEngine<Real>::count_meeting(const Contact& c) {
-  for (const Partner p : {c.body, c.partner}) {
-    if (is_fixed(p)) continue;
-    Rhythm& rhythm = rhythms_[p];
-    rhythm.meetings = rhythm.meeting_instant == instant_begin_ ? rhythm.meetings + 1 : 1;
-    rhythm.meeting_instant = instant_begin_;
-  }
+  for (const Partner p : {c.body, c.partner})
+    if (!is_fixed(p)) rhythms_[p].meetings.add(instant_begin_);
 }
 
 template <class Real>
 std::uint32_t BasicEngine<Real>::meetings(const Contact& c) const {
-  return std::max(rhythms_[c.body].meetings, is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings);
+  return std::max(rhythms_[c.body].meetings.count, is_fixed(c.partner) ? 0u : rhythms_[c.partner].meetings.count);
 }
 
 /// Whether somebody has so little room that even lossless impacts at one instant do not end: elastic series between unequal masses take fewer.
@@ -38,12 +35,7 @@ bool BasicEngine<Real>::is_beyond_hope(const Contact& c) const { return meetings
 /// Counts the impact at `time`; whether one of the two has had its fill.
 template <class Real>
 bool BasicEngine<Real>::is_stuck(const Contact& c, Real time) {
-  const auto has_had_enough = [&](std::uint32_t body) {
-    Rhythm& rhythm = rhythms_[body];
-    rhythm.repeats = rhythm.instant == time ? rhythm.repeats + 1 : 1;
-    rhythm.instant = time;
-    return rhythm.repeats > repeats_max;
-  };
+  const auto has_had_enough = [&](std::uint32_t body) { return rhythms_[body].repeats.add(time) > repeats_max; };
   const bool is_own = has_had_enough(c.body), is_other = !is_fixed(c.partner) && has_had_enough(c.partner);
   return is_own || is_other;
 }

@@ -68,12 +68,12 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
   auto& [x, y, vx, vy, time, radius] = static_cast<Flight<Real>&>(body);
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
-  auto& [window_start, last_hop, impacts, hops, instant, repeats, meeting_instant, meetings] = rhythm;
+  auto& [window_start, last_hop, impacts, hops, repeats, meetings] = rhythm;
   return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) && stream.choice(body.kind, BodyKind::post) &&
          stream.numbers(body.material, body.flags, body.mouth, mass, inverse_mass) &&
          stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) && stream.choice(half, Half::both) &&
-         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start, last_hop, impacts, hops, instant, repeats,
-                        meeting_instant, meetings);
+         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start, last_hop, impacts, hops,
+                        repeats.instant, repeats.count, meetings.instant, meetings.count);
 }
 
 template <class Stream, class Hold>

@@ -4,13 +4,6 @@
 namespace rink::physics {
 
 template <class Real>
-bool BasicEventHeap<Real>::precedes(const Entry& a, const Entry& b) {
-  if (a.time != b.time) return a.time < b.time;
-  if (a.lower != b.lower) return a.lower < b.lower;
-  return a.higher < b.higher;
-}
-
-template <class Real>
 void BasicEventHeap<Real>::raise(std::uint32_t place, const Entry& entry) {
   for (; place > 0 && precedes(entry, heap_[(place - 1) / 2]); place = (place - 1) / 2) put(place, heap_[(place - 1) / 2]);
   put(place, entry);
@@ -45,7 +38,7 @@ void BasicEventHeap<Real>::set(std::uint32_t body, Real time, std::uint32_t lowe
   take_out(body);
   times_[body] = time;
   if (time == std::numeric_limits<Real>::infinity()) return;
-  const Entry entry{time, lower, higher, body};
+  const Entry entry{{time, lower, higher}, body};
   heap_.push_back(entry);
   raise(static_cast<std::uint32_t>(heap_.size() - 1), entry);
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "game/physics/event_order.h"
+
 namespace rink::physics {
 
 /// As BasicEventQueue (event_queue.h), whose contract it shares: the same entries in the same order.
@@ -23,20 +25,16 @@ class BasicEventHeap {
   Real time(std::uint32_t body) const { return times_[body]; }
   /// The twin of the first is one of the next two, if it is there; whoever else may follow is above or right below it.
   bool is_followed_within(Real window) const {
-    const Entry& first = heap_.front();
+    const EventOrder<Real>& first = heap_.front();
     const Real end = first.time + window;
-    return std::any_of(heap_.begin() + 1, heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())), [&](const Entry& e) {
-      return e.time <= end && !(e.time == first.time && e.lower == first.lower && e.higher == first.higher);
-    });
+    return std::any_of(heap_.begin() + 1, heap_.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(7, heap_.size())), [&](const EventOrder<Real>& e) { return e.time <= end && e != first; });
   }
 
  private:
-  struct Entry {
-    Real time;
-    std::uint32_t lower, higher, body;
+  struct Entry : EventOrder<Real> {
+    std::uint32_t body;
   };
 
-  static bool precedes(const Entry& a, const Entry& b);
   void put(std::uint32_t place, const Entry& entry) {
     heap_[place] = entry;
     places_[entry.body] = place;

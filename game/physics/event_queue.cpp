@@ -17,19 +17,6 @@ constexpr double events_per_bucket = 8.0;
 }
 
 template <class Real>
-bool BasicEventQueue<Real>::precedes(const Entry& a, const Entry& b) {
-  if (a.time != b.time) return a.time < b.time;
-  if (a.lower != b.lower) return a.lower < b.lower;
-  return a.higher < b.higher;
-}
-
-template <class Real>
-bool BasicEventQueue<Real>::is_valid(const Due& due) const {
-  const Entry& entry = entries_[due.body];
-  return entry.time == due.entry.time && entry.lower == due.entry.lower && entry.higher == due.entry.higher;
-}
-
-template <class Real>
 std::int64_t BasicEventQueue<Real>::bucket_number(Real time) const { return static_cast<std::int64_t>(std::min<Real>(time * inverse_width_, number_max)); }
 
 template <class Real>
@@ -121,7 +108,7 @@ template <class Real>
 bool BasicEventQueue<Real>::is_followed_within(Real window) const {
   const Real end = last_time_ + window;
   for (std::size_t k = due_.size(); k-- > 0 && due_[k].entry.time <= end;)
-    if (is_valid(due_[k]) && !is_twin(due_[k].entry, entries_[found_])) return true;
+    if (is_valid(due_[k]) && due_[k].entry != entries_[found_]) return true;
   return end * inverse_width_ >= static_cast<Real>(current_ + 1);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "game/physics/event_order.h"
 #include "game/physics/large_pages.h"
 
 namespace rink::physics {
@@ -46,10 +47,7 @@ class BasicEventQueue {
   void prefetch(std::uint32_t body) const { __builtin_prefetch(&entries_[body], 1); }
 
  private:
-  struct Entry {
-    Real time = std::numeric_limits<Real>::infinity();
-    std::uint32_t lower = none, higher = none;
-  };
+  using Entry = EventOrder<Real>;
   struct Note {
     Real time;
     std::uint32_t body;
@@ -67,10 +65,7 @@ class BasicEventQueue {
   };
   static constexpr std::size_t bucket_min = 64;
 
-  /// The same impact, as the event of the other body.
-  static bool is_twin(const Entry& a, const Entry& b) { return a.time == b.time && a.lower == b.lower && a.higher == b.higher; }
-  static bool precedes(const Entry& a, const Entry& b);
-  bool is_valid(const Due& due) const;
+  bool is_valid(const Due& due) const { return entries_[due.body] == due.entry; }
   std::size_t place_of(std::int64_t number) const { return static_cast<std::size_t>(number) & (counts_.size() - 1); }
   std::int64_t bucket_number(Real time) const;
   void note(std::uint32_t body, Real time);

@@ -1,0 +1,26 @@
+// In which order events are processed.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace rink::physics {
+
+/// What tells events apart. The other body's event of the same impact has the same.
+template <class Real>
+struct EventOrder {
+  Real time = std::numeric_limits<Real>::infinity();        ///< simulated [s]
+  std::uint32_t lower = 0xffffffff, higher = 0xffffffff;  ///< ids of the two that meet
+
+  friend bool operator==(const EventOrder&, const EventOrder&) = default;
+};
+
+/// Ties break by (time, lower id, higher id).
+template <class Real>
+bool precedes(const EventOrder<Real>& a, const EventOrder<Real>& b) {
+  if (a.time != b.time) return a.time < b.time;
+  if (a.lower != b.lower) return a.lower < b.lower;
+  return a.higher < b.higher;
+}
+
+}  // namespace rink::physics
