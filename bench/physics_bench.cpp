@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/physics/world.h"
+#include "tests/physics/collision_library_cases.h"
 
 namespace {
 
@@ -22,16 +23,8 @@ using rink::physics::Vector2;
 using rink::physics::World;
 using rink::physics::WorldSpec;
 
-/// SplitMix64 (Steele, Lea and Flood 2014): the same scenes everywhere.
-struct Seeded {
-  std::uint64_t state;
-  std::uint64_t bits() {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  }
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53; }
+/// The same scenes everywhere.
+struct Seeded : rink::physics::collision::reference::Seeded {
   /// Isotropic, mean 1 m/s.
   Vector2 velocity() {
     const double angle = uniform(0.0, 2.0 * std::numbers::pi), speed = std::sqrt(-std::log1p(-uniform(0.0, 0.999))) * 2.0 / std::sqrt(std::numbers::pi);

@@ -2,49 +2,27 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "loadgen/process.h"
+#include "tests/command.h"
 
 namespace rink::accuracy {
 namespace {
 
 using testing::HasSubstr;
 
-class AccuracyCommand : public testing::Test {
+class AccuracyCommand : public test::CommandTest {
  protected:
-  AccuracyCommand() {
-    std::string pattern = testing::TempDir() + "rink-accuracy-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~AccuracyCommand() override { std::filesystem::remove_all(folder_); }
-
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
-  /// `command` runs in a shell with `rink` for the command; what it says is in said_.
-  int run(const std::string& arguments) {
-    const std::string command = std::string(RINK_BINARY_DIR) + "/bin/rink-accuracy " + arguments + " >" + (folder_ / "said").string() + " 2>&1";
-    const int status = std::system(command.c_str());
-    said_ = content("said");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string out() const { return (folder_ / "out").string(); }
-
-  std::filesystem::path folder_;
-  std::string said_;
+  AccuracyCommand() : CommandTest("accuracy") {}
+  int accuracy(const std::string& arguments) { return run("accuracy " + arguments); }
+  std::string out() const { return file("out"); }
 };
 
 TEST_F(AccuracyCommand, WritesTableFilesAndReport) {
-  ASSERT_EQ(run("--quick --scenes pairs,pressed --engines exact --out " + out()), 0) << said_;
-  EXPECT_THAT(said_, HasSubstr("pairs: "));
-  EXPECT_THAT(said_, HasSubstr("exact"));
+  ASSERT_EQ(accuracy("--quick --scenes pairs,pressed --engines exact --out " + out()), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("pairs: "));
+  EXPECT_THAT(printed_, HasSubstr("exact"));
   const std::string points = content("out/points.csv");
   EXPECT_THAT(points, HasSubstr("scene,engine,integrator,dt_s,"));
   EXPECT_THAT(points, HasSubstr("\npairs,exact,,0,0.5,"));
@@ -57,8 +35,8 @@ TEST_F(AccuracyCommand, WritesTableFilesAndReport) {
 }
 
 TEST_F(AccuracyCommand, StabilityWritesWhoSurvived) {
-  ASSERT_EQ(run("--stability --quick --scenes cradle,post --engines exact --out " + out()), 0) << said_;
-  EXPECT_THAT(said_, HasSubstr("cradle: "));
+  ASSERT_EQ(accuracy("--stability --quick --scenes cradle,post --engines exact --out " + out()), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("cradle: "));
   EXPECT_THAT(content("out/stability.csv"), HasSubstr("\ncradle,exact,,0,yes,"));
   EXPECT_THAT(content("out/report.html"), HasSubstr("Stability"));
 }
@@ -66,30 +44,30 @@ TEST_F(AccuracyCommand, StabilityWritesWhoSurvived) {
 TEST_F(AccuracyCommand, NeverOverwrites) {
   std::filesystem::create_directories(folder_ / "out");
   std::ofstream(folder_ / "out/mine") << "kept";
-  EXPECT_EQ(run("--quick --scenes pairs --engines exact --out " + out()), 5);
+  EXPECT_EQ(accuracy("--quick --scenes pairs --engines exact --out " + out()), 5);
   EXPECT_THAT(said_, HasSubstr("already there"));
   EXPECT_EQ(content("out/mine"), "kept");
-  EXPECT_EQ(run("--quick --scenes pairs --engines exact --out " + (folder_ / "out/mine/below").string()), 5);
+  EXPECT_EQ(accuracy("--quick --scenes pairs --engines exact --out " + (folder_ / "out/mine/below").string()), 5);
 }
 
 TEST_F(AccuracyCommand, RefusesWrongNamesWithThoseThatAreRight) {
-  EXPECT_EQ(run("--scenes moon --out " + out()), 2);
+  EXPECT_EQ(accuracy("--scenes moon --out " + out()), 2);
   EXPECT_THAT(said_, HasSubstr("moon: expected one of pairs, gas, dense"));
-  EXPECT_EQ(run("--stability --scenes gas --out " + out()), 2);
+  EXPECT_EQ(accuracy("--stability --scenes gas --out " + out()), 2);
   EXPECT_THAT(said_, HasSubstr("gas: expected one of fast, dense"));
-  EXPECT_EQ(run("--engines ode --out " + out()), 2);
+  EXPECT_EQ(accuracy("--engines ode --out " + out()), 2);
   EXPECT_THAT(said_, HasSubstr("ode: expected one of exact"));
-  EXPECT_EQ(run("--integrators leapfrog --out " + out()), 2);
+  EXPECT_EQ(accuracy("--integrators leapfrog --out " + out()), 2);
   EXPECT_THAT(said_, HasSubstr("euler, semi_implicit, verlet, rk4"));
-  EXPECT_EQ(run("--quick --full --out " + out()), 2);
-  EXPECT_EQ(run("--stability --dt -1 --out " + out()), 2);
+  EXPECT_EQ(accuracy("--quick --full --out " + out()), 2);
+  EXPECT_EQ(accuracy("--stability --dt -1 --out " + out()), 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_THAT(said_, HasSubstr("--stability"));
+  EXPECT_EQ(accuracy("--help"), 0);
+  EXPECT_THAT(printed_, HasSubstr("--stability"));
 }
 
 TEST_F(AccuracyCommand, KeepsWhatWasMeasuredWhenInterrupted) {
-  const std::string shell = "cd " + folder_.string() + " && (" + RINK_BINARY_DIR + "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; kill -TERM $pid; wait $pid; echo $? >status)";
+  const std::string shell = "cd " + folder_.path().string() + " && (" + RINK_BINARY_DIR + "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; kill -TERM $pid; wait $pid; echo $? >status)";
   ASSERT_EQ(std::system(shell.c_str()), 0);
   EXPECT_EQ(content("status"), "130\n");
   EXPECT_THAT(content("out/points.csv"), HasSubstr("\npairs,exact,"));

@@ -1,9 +1,7 @@
 // The command rink simulate, run as its users run it.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,34 +10,17 @@
 #include "game/control/key_log.h"
 #include "game/control/simulate_progress.h"
 #include "rink_scenes.h"
+#include "tests/command.h"
 
 namespace rink::game {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-class SimulateCommand : public ::testing::Test {
+class SimulateCommand : public test::CommandTest {
  protected:
-  SimulateCommand() : folder_(::testing::TempDir() + "/rink-simulate-" + ::testing::UnitTest::GetInstance()->current_test_info()->name()) { std::filesystem::create_directories(folder_); }
-  ~SimulateCommand() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-  /// The exit status; what the command says on standard error is in `said_`.
-  int run(const std::string& arguments) {
-    const std::string command = std::string(RINK_BINARY_DIR) + "/bin/rink-simulate " + arguments + " >" + file("out") + " 2>" + file("err");
-    const int status = std::system(command.c_str());
-    said_ = text_of(file("err"));
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  std::filesystem::path folder_;
-  std::string said_;
+  SimulateCommand() : CommandTest("simulate") {}
+  int simulate(const std::string& arguments) { return run("simulate " + arguments); }
 };
 
 TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
@@ -47,7 +28,7 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   KeyLog log = key_log_for(scene);
   log.events = {{0.1, 0, InputKind::key_down, Key::up}, {0.3, 4, InputKind::key_down, Key::left}};
   write_key_log(std::filesystem::path(file("keys")), log);
-  ASSERT_EQ(run("crowd --bats 5 --seed 9 --until 1.5 --keys " + file("keys") + " --states " + file("states.csv") + " --summary " + file("summary.json")), 0) << said_;
+  ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --until 1.5 --keys " + file("keys") + " --states " + file("states.csv") + " --summary " + file("summary.json")), 0) << said_;
 
   Game game(scene);
   for (const InputEvent& event : log.events) game.submit(event);
@@ -61,8 +42,8 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
     states << entity.id.index << ',' << x.x() << ',' << x.y() << ',' << v.x() << ',' << v.y() << '\n';
   }
   hash << std::hex << game.hash();
-  EXPECT_EQ(text_of(file("states.csv")), states.str());
-  const std::string summary = text_of(file("summary.json"));
+  EXPECT_EQ(content("states.csv"), states.str());
+  const std::string summary = content("summary.json");
   EXPECT_THAT(summary, HasSubstr(hash.str()));
   for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "work_of_thrust", "dissipated", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
                           "evaluations"})
@@ -80,9 +61,9 @@ std::vector<std::string> rows_of(const std::string& file) {
 
 TEST_F(SimulateCommand, WritesALineForEveryEventThatTheSummaryCounts) {
   for (const std::string engine : {"exact", "paper", "naive"}) {
-    ASSERT_EQ(run("crowd --bats 5 --seed 9 --players chaser --until 4 --engine " + engine + " --events " + file("events.csv")), 0) << said_;
+    ASSERT_EQ(simulate("crowd --bats 5 --seed 9 --players chaser --until 4 --engine " + engine + " --events " + file("events.csv")), 0) << said_;
     const std::vector<std::string> rows = rows_of(file("events.csv"));
-    const std::string summary = text_of(file("out"));
+    const std::string summary = printed_;
     for (const char* kind : physics::event_kind_names) {
       const auto count = std::count_if(rows.begin(), rows.end(), [&](const std::string& row) { return row.find(',' + std::string(kind) + ',') != std::string::npos; });
       const std::string heading = '"' + std::string(kind) + "\": ";
@@ -97,7 +78,7 @@ TEST_F(SimulateCommand, PlaysTheSameKeysOnEveryEngine) {
   std::ofstream(file("bats.toml")) << "[field]\nlength = 9.0\nwidth = 9.0\n[drag]\nbats = 1.0\n[[bat]]\nname = \"b\"\nposition = [4.0, 4.0]\nhalf_extent = [0.1, 0.1]\n"
                                       "[[key]]\ntime = 0.1\nbat = \"b\"\nkey = \"up\"\nis_down = true\n[[key]]\ntime = 0.55\nbat = \"b\"\nkey = \"up\"\nis_down = false\n";
   const auto height = [&](const std::string& flags) {
-    EXPECT_EQ(run(file("bats.toml") + " --until 1 --states " + file("states.csv") + flags), 0) << said_;
+    EXPECT_EQ(simulate(file("bats.toml") + " --until 1 --states " + file("states.csv") + flags), 0) << said_;
     std::istringstream row(rows_of(file("states.csv")).front());
     std::string value;
     for (int column = 0; column < 4; ++column) std::getline(row, value, ',');
@@ -111,19 +92,19 @@ TEST_F(SimulateCommand, PlaysTheSameKeysOnEveryEngine) {
 }
 
 TEST_F(SimulateCommand, NamesTheAllowedEnginesAndIntegratorsAndRefusesEndlessFrames) {
-  EXPECT_EQ(run("match --until 1 --engine box2d"), 2);
+  EXPECT_EQ(simulate("match --until 1 --engine box2d"), 2);
   EXPECT_THAT(said_, HasSubstr("the engine box2d is unknown: expected one of exact, paper, naive"));
-  EXPECT_EQ(run("match --until 1 --engine paper --integrator rk5"), 2);
+  EXPECT_EQ(simulate("match --until 1 --engine paper --integrator rk5"), 2);
   EXPECT_THAT(said_, HasSubstr("the integrator rk5 is unknown: expected one of euler, semi_implicit, verlet, rk4"));
   for (const std::string dt : {"0", "-0.01", "nan", "inf"}) {
-    EXPECT_EQ(run("match --until 1 --engine paper --dt " + dt), 2) << dt;
+    EXPECT_EQ(simulate("match --until 1 --engine paper --dt " + dt), 2) << dt;
     EXPECT_THAT(said_, HasSubstr("expected a finite length above 0 s")) << dt;
   }
-  EXPECT_EQ(run("match --until 1 --engine naive --dt 1e-300"), 2);
+  EXPECT_EQ(simulate("match --until 1 --engine naive --dt 1e-300"), 2);
   EXPECT_THAT(said_, HasSubstr("frames"));
-  EXPECT_EQ(run("match --until 1 --dt 0.01"), 2);
+  EXPECT_EQ(simulate("match --until 1 --dt 0.01"), 2);
   EXPECT_THAT(said_, HasSubstr("--dt is for the engines paper and naive"));
-  EXPECT_EQ(run("match --until 1 --integrator rk4"), 2);
+  EXPECT_EQ(simulate("match --until 1 --integrator rk4"), 2);
   EXPECT_THAT(said_, HasSubstr("--integrator is for the engines paper and naive"));
 }
 
@@ -142,24 +123,24 @@ TEST(SimulateProgress, SaysNothingOfShortRunsALineNowAndThenOtherwiseAndOverwrit
 
 TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   std::ofstream(file("bad.toml")) << "[field]\nlength = 4.0\nwidth = -2.0\n";
-  EXPECT_EQ(run(file("bad.toml") + " --until 1"), 2);
+  EXPECT_EQ(simulate(file("bad.toml") + " --until 1"), 2);
   EXPECT_EQ(said_, "rink simulate: " + file("bad.toml") + ":3: field.width is -2.0: expected a number from 0.001 to 1e+09\n");
-  EXPECT_EQ(run("crowd --until inf"), 2);
+  EXPECT_EQ(simulate("crowd --until inf"), 2);
   EXPECT_THAT(said_, HasSubstr("neither runs backwards nor for ever"));
-  EXPECT_EQ(run("crowd --until -1"), 2);
-  EXPECT_EQ(run("crowd --until nan"), 2);
+  EXPECT_EQ(simulate("crowd --until -1"), 2);
+  EXPECT_EQ(simulate("crowd --until nan"), 2);
   EXPECT_THAT(said_, HasSubstr("expected a finite time"));
-  EXPECT_EQ(run("crowd"), 2);
+  EXPECT_EQ(simulate("crowd"), 2);
   EXPECT_THAT(said_, HasSubstr("--until"));
-  EXPECT_EQ(run("crowd --until 1e300"), 2);
+  EXPECT_EQ(simulate("crowd --until 1e300"), 2);
   EXPECT_THAT(said_, HasSubstr("at most 1e9 s"));
-  EXPECT_EQ(run("no-such-preset --until 1"), 2);
-  EXPECT_EQ(run("match --until 1 --keys " + file("missing")), 2);
-  EXPECT_EQ(run("match --until 1 --states " + file("no/such/folder.csv")), 2);
+  EXPECT_EQ(simulate("no-such-preset --until 1"), 2);
+  EXPECT_EQ(simulate("match --until 1 --keys " + file("missing")), 2);
+  EXPECT_EQ(simulate("match --until 1 --states " + file("no/such/folder.csv")), 2);
 }
 
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {
-  const std::string page = text_of(std::string(RINK_SOURCE_DIR) + "/docs/scenes.md");
+  const std::string page = test::text_of(std::string(RINK_SOURCE_DIR) + "/docs/scenes.md");
   const std::size_t start = page.find("```toml\n") + 8;
   const Scene scene = parse_scene(page.substr(start, page.find("```", start) - start), "docs/scenes.md");
   EXPECT_EQ(scene.name, "duel");

@@ -11,6 +11,7 @@
 
 #include "canned_reports.h"
 #include "loadgen/process.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -23,8 +24,6 @@ const std::string find_report = "while [ $# -gt 0 ]; do [ \"$1\" = --report ] &&
 class CampaignTest : public testing::Test {
  protected:
   CampaignTest() {
-    std::string pattern = testing::TempDir() + "rink-campaign-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
     settings_.serve = folder_ / "serve";
     settings_.bots = folder_ / "bots";
     settings_.directory = folder_;
@@ -34,7 +33,6 @@ class CampaignTest : public testing::Test {
     healthy_server();
     healthy_bots();
   }
-  ~CampaignTest() override { std::filesystem::remove_all(folder_); }
 
   void script(const std::filesystem::path& path, const std::string& body) {
     std::ofstream(path) << "#!/bin/sh\n" << body;
@@ -53,7 +51,7 @@ class CampaignTest : public testing::Test {
     return record.value_or(RunRecord{});
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"campaign"};
   RunnerSettings settings_;
   Experiment experiment_ = small_experiment();
   Cell cell_{"client-server", "none", "periodic", 10, 1};
@@ -73,12 +71,10 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
   cell_.parameters.cell_size = 2.5;
   experiment_.duration_s = experiment_.warm_up_s = 0.25;
   run();
-  std::ostringstream serve_text, bots_text;
-  serve_text << std::ifstream(folder_ / "serve.arguments").rdbuf();
-  bots_text << std::ifstream(folder_ / "bots.arguments").rdbuf();
-  EXPECT_THAT(serve_text.str(), HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
+  const std::string serve_text = test::text_of(folder_ / "serve.arguments"), bots_text = test::text_of(folder_ / "bots.arguments");
+  EXPECT_THAT(serve_text, HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
                                           "--rate 30 --duration 0.5 --warm-up 0.25"));
-  EXPECT_THAT(bots_text.str(), AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --seed 1 --plan "), HasSubstr("--view 0.05")));
+  EXPECT_THAT(bots_text, AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --seed 1 --plan "), HasSubstr("--view 0.05")));
 }
 
 TEST_F(CampaignTest, AServerThatEndsBeforeItListensIsQuoted) {
@@ -174,8 +170,7 @@ TEST_F(CampaignTest, AFullDiskEndsTheCampaignAndKeepsTheRunInMemory) {
 }
 
 TEST(Results, ExistingResultsAreNotReplacedUnasked) {
-  std::string pattern = testing::TempDir() + "rink-results-XXXXXX";
-  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const test::TemporaryFolder folder("results");
   ResultsDirectory(folder / "a", false).append(RunRecord{});
   try {
     ResultsDirectory(folder / "a", false);
@@ -193,19 +188,16 @@ TEST(Results, ExistingResultsAreNotReplacedUnasked) {
   EXPECT_EQ(free_directory(folder), folder / "report-3");
   std::ofstream(folder / "file") << "x";
   EXPECT_THROW(ResultsDirectory(folder / "file", false), OutputError);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Results, TwoCannotWriteTheSameRunsAtOnce) {
-  std::string pattern = testing::TempDir() + "rink-results-XXXXXX";
-  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const test::TemporaryFolder folder("results");
   ResultsDirectory first(folder, false);
   first.append(RunRecord{});
   const auto size = std::filesystem::file_size(folder / "runs.jsonl");
   EXPECT_THROW(ResultsDirectory::resumed(folder, size), OutputError);
   first.append(RunRecord{});
   EXPECT_EQ(std::filesystem::file_size(folder / "runs.jsonl"), 2 * size);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ProgressLine, TimeLeftFollowsTheMeanOfTheFinishedCells) {

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "canned_reports.h"
 #include "loadgen/process.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -20,8 +20,6 @@ using testing::StartsWith;
 class CompareCommandTest : public testing::Test {
  protected:
   CompareCommandTest() {
-    std::string pattern = testing::TempDir() + "rink-compare-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
     const Cell cell{"client-server", "@scheme", "periodic", 2, 1};
     const std::string take = "while [ $# -gt 0 ]; do case $1 in --report) report=$2;; --scheme) scheme=$2;; esac; shift; done\n";
     script("rink-serve", take + "echo listening on 127.0.0.1:4711\n[ -e " + (folder_ / "fail-").string() +
@@ -30,21 +28,16 @@ class CompareCommandTest : public testing::Test {
     script("rink-bots", take + "cat >\"$report\" <<'R'\n" + canned_bots_report(cell).dump() + "\nR\n");
     write("small.toml", "name = 'small'\nscene = 'match'\nclients = 2\nschemes = ['none', 'grid']\nduration_s = 0.1\nwarm_up_s = 0\n");
   }
-  ~CompareCommandTest() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& content) { std::ofstream(folder_ / name) << content; }
   void script(const std::string& name, const std::string& body) {
     write(name, "#!/bin/sh\n" + body);
     std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_all);
   }
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
+  std::string content(const std::string& name) const { return test::text_of(folder_ / name); }
 
   std::vector<std::string> arguments(const std::string& experiment) const {
-    return {(folder_ / experiment).string(), "--out", (folder_ / "out").string(), "--programs", folder_.string()};
+    return {(folder_ / experiment).string(), "--out", (folder_ / "out").string(), "--programs", folder_.path().string()};
   }
   std::vector<std::string> with(const std::string& experiment, const std::vector<std::string>& more) const {
     std::vector<std::string> all = arguments(experiment);
@@ -59,7 +52,7 @@ class CompareCommandTest : public testing::Test {
     return compare.ending()->exit_status;
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"compare"};
   std::string errors_;
 };
 
@@ -157,7 +150,7 @@ TEST_F(CompareCommandTest, AnAssertionThatNamesWhatIsNotThereEndsBeforeAnythingR
 }
 
 TEST_F(CompareCommandTest, AFolderThatMayNotBeWrittenIsNamed) {
-  const auto status = [this](const std::string& out) { return exit_status_of({(folder_ / "small.toml").string(), "--out", out, "--programs", folder_.string()}); };
+  const auto status = [this](const std::string& out) { return exit_status_of({(folder_ / "small.toml").string(), "--out", out, "--programs", folder_.path().string()}); };
   EXPECT_EQ(status("/proc/nowhere"), 5);
   EXPECT_THAT(errors_, HasSubstr("/proc/nowhere"));
   std::filesystem::create_directory(folder_ / "full");

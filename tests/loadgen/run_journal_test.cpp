@@ -8,6 +8,7 @@
 
 #include "canned_reports.h"
 #include "loadgen/results.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -42,11 +43,6 @@ nlohmann::ordered_json line_of_distinct_values() {
 
 class JournalFile : public testing::Test {
  protected:
-  JournalFile() {
-    std::string pattern = testing::TempDir() + "rink-journal-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~JournalFile() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path written(const std::string& content) const {
     std::ofstream(folder_ / "runs.jsonl", std::ios::binary) << content;
     return folder_ / "runs.jsonl";
@@ -59,7 +55,7 @@ class JournalFile : public testing::Test {
     }
     return "no complaint";
   }
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"journal"};
   const std::string line_ = to_json(plain_run()).dump() + "\n";
 };
 

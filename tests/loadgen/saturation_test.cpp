@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <random>
 #include <sstream>
+
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -231,12 +232,10 @@ TEST_F(SaturateTest, AnInterruptedSearchIsKeptAndGoesOnWithoutRunningAnythingTwi
 
 TEST_F(SaturateTest, UnderAVirtualClockNothingSaturates) {
   experiment_.transport = TransportKind::virtual_time;
-  std::string pattern = testing::TempDir() + "rink-saturation-XXXXXX";
-  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const test::TemporaryFolder folder("saturation");
   ResultsDirectory results(folder, false);
   std::vector<Saturation> found;
   EXPECT_THROW(run_saturation(experiment_, {}, 100, {}, results, [](const Cell&, const auto&) {}, said_, found), ExperimentError);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "loadgen/truth/replay.h"
 #include "loadgen/truth/scope_history.h"
 #include "loadgen/truth/stays.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -157,8 +158,6 @@ class TinyRink : public testing::Test {
   static constexpr std::uint32_t bat = 0, still = 1, flying = 2, far = 3;  // bodies in the order of their making
 
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("truth-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
     scene_file_ = (folder_ / "tiny.toml").string();
     std::ofstream(scene_file_) << R"(
 [field]
@@ -201,7 +200,6 @@ material = "ice"
     bots_.until_s = 4.0;
     bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}, {-1.0, 100 + still, true}}});
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void decide(double instant_s, const std::vector<std::uint32_t>& bodies) {
     const std::size_t first = server_.in_scope.size();
@@ -210,7 +208,7 @@ material = "ice"
   }
   TruthFigures judged() const { return truth_of(server_, bots_, {RelevanceArea::Shape::square, view_half_side}); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"truth"};
   std::string scene_file_;
   game::ServerEvidence server_;
   BotsEvidence bots_;

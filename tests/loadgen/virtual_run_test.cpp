@@ -17,23 +17,18 @@
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/summary.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
 
 using testing::HasSubstr;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 class VirtualRunTest : public testing::Test {
  protected:
   VirtualRunTest() {
-    std::string pattern = testing::TempDir() + "rink-virtual-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
     settings_.directory = folder_;
     settings_.serve = std::string(RINK_BINARY_DIR) + "/bin/rink-serve";
     settings_.bots = std::string(RINK_BINARY_DIR) + "/bin/rink-bots";
@@ -48,7 +43,6 @@ class VirtualRunTest : public testing::Test {
     experiment_.warm_up_s = 0.25;
     experiment_.duration_s = 2.0;
   }
-  ~VirtualRunTest() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path key_log(const Cell& cell) const {
     const std::filesystem::path file = folder_ / "log.keys";
@@ -64,7 +58,7 @@ class VirtualRunTest : public testing::Test {
   nlohmann::json report(const Cell& cell, const char* who) const { return nlohmann::json::parse(text_of(folder_ / (name_of(cell) + "." + who + ".json"))); }
   Cell first_cell() const { return cells_of(experiment_).front(); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"virtual"};
   RunnerSettings settings_;
   Experiment experiment_;
 };

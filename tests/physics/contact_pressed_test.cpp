@@ -4,25 +4,13 @@
 #include <cmath>
 
 #include "tests/physics/contact_bounds.h"
+#include "tests/physics/pressed_bodies.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {
 
-BatSpec bat_at(double x, double y, double mass = 3.0) {
-  BatSpec bat;
-  bat.position = {x, y};
-  bat.half_extent = {0.05, 0.3};
-  bat.mass = mass;
-  return bat;
-}
-
-PuckSpec puck_at(double x, double y, double mass = 0.5) {
-  PuckSpec puck;
-  puck.position = {x, y};
-  puck.mass = mass;
-  return puck;
-}
+BatSpec bat_at(double x, double y, double mass = 3.0) { return thin_bat_at(x, y, 0.3, mass); }
 
 PostSpec post_at(double x, double y, double radius = 0.1) {
   PostSpec post;
@@ -58,7 +46,7 @@ bool comes_to_rest(const World& world, Watch& watch, BodyId bat, const Vector2& 
 TEST_P(Pressed, PuckIntoAWall) {
   for (const double y : {0.8, 1.0, 1.25}) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
-    const BodyId puck = world.add(puck_at(0.5, y)), bat = world.add(bat_at(1, 1));
+    const BodyId puck = world.add(light_puck_at(0.5, y)), bat = world.add(bat_at(1, 1));
     Watch watch(world, {bat});
     EXPECT_TRUE(comes_to_rest(world, watch, bat, {-6, 0}) || GetParam() == 1.0);
     if (GetParam() < 1.0) {
@@ -73,7 +61,7 @@ TEST_P(Pressed, PuckIntoAWall) {
 TEST_P(Pressed, RowOfPucksIntoAWall) {
   const BodyId bat = world_.add(bat_at(1, 1));
   std::vector<BodyId> row;
-  for (int i = 0; i < 5; ++i) row.push_back(world_.add(puck_at(0.1 + 0.1 * i, 1)));
+  for (int i = 0; i < 5; ++i) row.push_back(world_.add(light_puck_at(0.1 + 0.1 * i, 1)));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
   for (std::size_t i = 0; i < 5 && GetParam() < 1.0; ++i) EXPECT_NEAR(world_.position(row[i]).x(), 0.04 + 0.08 * static_cast<double>(i), 1e-5);
@@ -83,7 +71,7 @@ TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
   World world(rink_of(40, 2, GetParam(), 0.2, 1.0));
   const BodyId bat = world.add(bat_at(1, 1));
   std::vector<BodyId> row;
-  for (int i = 0; i < 4; ++i) row.push_back(world.add(puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
+  for (int i = 0; i < 4; ++i) row.push_back(world.add(light_puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
   Watch watch(world, {bat});
   watch.set_thrust(bat, {6, 0});
   watch.run(4.0);
@@ -99,7 +87,7 @@ TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
 
 TEST_P(Pressed, PucksSideBySideIntoAWall) {
   const BodyId bat = world_.add(bat_at(1, 1));
-  for (int i = 0; i < 5; ++i) world_.add(puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));
+  for (int i = 0; i < 5; ++i) world_.add(light_puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
 }
@@ -108,7 +96,7 @@ TEST_P(Pressed, PuckIntoACorner) {
   for (const double start : {0.1, 0.15, 0.2}) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
     const BodyId bat = world.add(bat_at(1, 0.5));
-    world.add(puck_at(0.5, start));
+    world.add(light_puck_at(0.5, start));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, -6});
     watch.set_thrust(bat, {6, 6});
@@ -119,7 +107,7 @@ TEST_P(Pressed, PuckIntoACorner) {
 
 TEST_P(Pressed, ThreePucksIntoACorner) {
   const BodyId bat = world_.add(bat_at(1, 0.5));
-  for (int i = 0; i < 3; ++i) world_.add(puck_at(0.1 + 0.15 * i, 0.1 + 0.05 * i, i == 1 ? 3.0 : 0.1));
+  for (int i = 0; i < 3; ++i) world_.add(light_puck_at(0.1 + 0.15 * i, 0.1 + 0.05 * i, i == 1 ? 3.0 : 0.1));
   Watch watch(world_, {bat});
   comes_to_rest(world_, watch, bat, {-6, -6});
 }
@@ -130,7 +118,7 @@ TEST_P(Pressed, PuckIntoAPost) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
     world.add(post_at(0.5, 1));
     const BodyId bat = world.add(bat_at(1, 1));
-    world.add(puck_at(0.8, 1 + offset));
+    world.add(light_puck_at(0.8, 1 + offset));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, 0});
   }
@@ -142,7 +130,7 @@ TEST_P(Pressed, RowOfPucksIntoAPost) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
     world.add(post_at(0.3, 1));
     const BodyId bat = world.add(bat_at(1.5, 1));
-    for (int i = 0; i < 4; ++i) world.add(puck_at(0.5 + 0.15 * i, 1 + offset * (i % 2)));
+    for (int i = 0; i < 4; ++i) world.add(light_puck_at(0.5 + 0.15 * i, 1 + offset * (i % 2)));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, 0});
   }
@@ -156,7 +144,7 @@ TEST_P(Pressed, TwoPucksIntoAPost) {
       World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
       world.add(post_at(0.5, 1, 0.15));
       const BodyId bat = world.add(bat_at(1.2, 1));
-      world.add(puck_at(0.8, 1.045 + shift, mass)), world.add(puck_at(0.8, 0.955 + shift));
+      world.add(light_puck_at(0.8, 1.045 + shift, mass)), world.add(light_puck_at(0.8, 0.955 + shift));
       Watch watch(world, {bat});
       comes_to_rest(world, watch, bat, {-6, 0});
     }
@@ -165,7 +153,7 @@ TEST_P(Pressed, TwoPucksIntoAPost) {
 /// Between two posts, a wall and the bat there is no way out.
 TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
   world_.add(post_at(0.1, 0.9)), world_.add(post_at(0.1, 1.1));
-  const BodyId bat = world_.add(bat_at(1, 1)), puck = world_.add(puck_at(0.5, 1.0));
+  const BodyId bat = world_.add(bat_at(1, 1)), puck = world_.add(light_puck_at(0.5, 1.0));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
   if (GetParam() == 1.0) return;
@@ -175,7 +163,7 @@ TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
   watch.run(0.3);
   EXPECT_FALSE(world_.is_held(puck));
   EXPECT_NEAR((world_.position(puck) - place).norm(), 0.0, 1e-3);  // free, but nothing drives it away
-  PuckSpec striker = puck_at(place.x() + 0.045, place.y() + 0.25);  // past the upper post, to drive it round the lower one
+  PuckSpec striker = light_puck_at(place.x() + 0.045, place.y() + 0.25);  // past the upper post, to drive it round the lower one
   striker.velocity = {0, -2};
   world_.add(striker);
   watch.run(1.0);
@@ -185,7 +173,7 @@ TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
 TEST_P(Pressed, WholeRackIntoACorner) {
   const BodyId bat = world_.add(bat_at(1.5, 0.4)), other = world_.add(bat_at(1.5, 1.4));
   std::mt19937_64 random(9);
-  for (int i = 0; i < 20; ++i) world_.add(puck_at(0.1 + 0.1 * (i % 5), 0.1 + 0.1 * (i / 5), std::pow(10.0, uniform(random, -2.0, 1.0))));
+  for (int i = 0; i < 20; ++i) world_.add(light_puck_at(0.1 + 0.1 * (i % 5), 0.1 + 0.1 * (i / 5), std::pow(10.0, uniform(random, -2.0, 1.0))));
   Watch watch(world_, {bat, other});
   watch.set_thrust(bat, {-6, -6});
   watch.set_thrust(other, {-6, -6});

@@ -3,25 +3,13 @@
 
 #include <cmath>
 
+#include "tests/physics/pressed_bodies.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {
 
-BatSpec bat_at(double x, double y, double mass = 3.0) {
-  BatSpec bat;
-  bat.position = {x, y};
-  bat.half_extent = {0.05, 0.2};
-  bat.mass = mass;
-  return bat;
-}
-
-PuckSpec puck_at(double x, double y, double mass = 0.5) {
-  PuckSpec puck;
-  puck.position = {x, y};
-  puck.mass = mass;
-  return puck;
-}
+BatSpec bat_at(double x, double y, double mass = 3.0) { return thin_bat_at(x, y, 0.2, mass); }
 
 class PressedAtEveryRestitution : public testing::TestWithParam<double> {};
 
@@ -60,7 +48,7 @@ TEST_P(PressedAtEveryRestitution, BatHeldAgainstAWallStillSlidesAlongIt) {
 
 TEST_P(PressedAtEveryRestitution, PuckPinnedToAWallRestsAndIsReleasedWhenTheBatWithdraws) {
   World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
-  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(puck_at(0.5, 1));
+  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(light_puck_at(0.5, 1));
   world.set_thrust(bat, {-6, 0});
   EXPECT_EQ(events_once_settled(world), 0u);
   EXPECT_NEAR(world.position(puck).x(), 0.04, 1e-9);
@@ -73,8 +61,8 @@ TEST_P(PressedAtEveryRestitution, PuckPinnedToAWallRestsAndIsReleasedWhenTheBatW
 TEST_P(PressedAtEveryRestitution, RowOfPucksIsPinnedToAWall) {
   World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
   const BodyId bat = world.add(bat_at(1, 1));
-  world.add(puck_at(0.5, 1));
-  world.add(puck_at(0.3, 1));
+  world.add(light_puck_at(0.5, 1));
+  world.add(light_puck_at(0.3, 1));
   world.set_thrust(bat, {-6, 0});
   EXPECT_EQ(events_once_settled(world), 0u);
   EXPECT_NEAR(world.position(bat).x(), 0.16 + 0.05, 1e-5);
@@ -83,15 +71,15 @@ TEST_P(PressedAtEveryRestitution, RowOfPucksIsPinnedToAWall) {
 TEST_P(PressedAtEveryRestitution, PucksSideBySideArePinnedToAWall) {
   World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
   const BodyId bat = world.add(bat_at(1, 1));
-  world.add(puck_at(0.5, 0.9));
-  world.add(puck_at(0.3, 1.1));
+  world.add(light_puck_at(0.5, 0.9));
+  world.add(light_puck_at(0.3, 1.1));
   world.set_thrust(bat, {-6, 0});
   EXPECT_EQ(events_once_settled(world), 0u);
 }
 
 TEST_P(PressedAtEveryRestitution, PuckIsPinnedInTheCornerOfTheField) {
   World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
-  const BodyId bat = world.add(bat_at(1, 0.3)), puck = world.add(puck_at(0.5, 0.1));
+  const BodyId bat = world.add(bat_at(1, 0.3)), puck = world.add(light_puck_at(0.5, 0.1));
   world.set_thrust(bat, {-6, -6});
   world.advance(15.0);
   EXPECT_LT(world.max_overlap(), 1e-9);
@@ -108,7 +96,7 @@ TEST_P(PressedAtEveryRestitution, PuckSquirtsFromAPostOrStaysAndTimeAdvances) {
     post.radius = 0.1;
     world.add(post);
     const BodyId bat = world.add(bat_at(1, 1));
-    world.add(puck_at(0.8, 1 + offset));
+    world.add(light_puck_at(0.8, 1 + offset));
     world.set_thrust(bat, {-6, 0});
     world.advance(10.0);
     EXPECT_LT(world.max_overlap(), 1e-9);
@@ -118,7 +106,7 @@ TEST_P(PressedAtEveryRestitution, PuckSquirtsFromAPostOrStaysAndTimeAdvances) {
 
 TEST_P(PressedAtEveryRestitution, BatPushesAPuckAcrossTheFieldAsOneBody) {
   World world(rink_of(40, 2, GetParam(), 0.5, 1.0));
-  const BodyId bat = world.add(bat_at(1, 1, 3.0)), puck = world.add(puck_at(1.2, 1, 1.0));
+  const BodyId bat = world.add(bat_at(1, 1, 3.0)), puck = world.add(light_puck_at(1.2, 1, 1.0));
   world.set_thrust(bat, {6, 0});
   world.advance(6.0);
   if (GetParam() < 1.0) {
@@ -140,7 +128,7 @@ TEST_P(PressedAtEveryRestitution, BatPushesAPuckAcrossTheFieldAsOneBody) {
 
 TEST_P(PressedAtEveryRestitution, PushedPuckSlidesOffTheEndOfTheFace) {
   World world(rink_of(40, 4, GetParam(), 0.2, 1.0));
-  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(puck_at(1.2, 1.1));
+  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(light_puck_at(1.2, 1.1));
   world.set_thrust(bat, {6, 0});
   world.advance(2.0);
   world.set_thrust(bat, {6, -6});
@@ -153,7 +141,7 @@ TEST_P(PressedAtEveryRestitution, PushedPuckSlidesOffTheEndOfTheFace) {
 TEST_P(PressedAtEveryRestitution, OpposedBatsHoldAPuckBetweenThem) {
   World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
   const BodyId left = world.add(bat_at(1, 1)), right = world.add(bat_at(2, 1));
-  const BodyId puck = world.add(puck_at(1.4, 1));
+  const BodyId puck = world.add(light_puck_at(1.4, 1));
   world.set_thrust(left, {6, 0});
   world.set_thrust(right, {-6, 0});
   EXPECT_EQ(events_once_settled(world), 0u);
@@ -167,7 +155,7 @@ TEST(Collapse, ThreePucksOfAnyRestitutionSeparateInTime) {
     SCOPED_TRACE(e);
     World world(rink_of(10, 1, e));
     for (int i = 0; i < 6; ++i) {
-      PuckSpec puck = puck_at(3 + i * 0.5, 0.5);
+      PuckSpec puck = light_puck_at(3 + i * 0.5, 0.5);
       puck.velocity = {i < 3 ? 1.0 : -1.0, 0.0};
       world.add(puck);
     }
@@ -260,14 +248,14 @@ TEST(Crowd, GoalsAndHalfwayLineHoldUnderRandomKeys) {
 
 TEST(Crowd, RemovingAPressingBatFreesWhatItHeld) {
   World world(rink_of(4, 2, 0.5, 0.2, 1.0));
-  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(puck_at(0.5, 1));
+  const BodyId bat = world.add(bat_at(1, 1)), puck = world.add(light_puck_at(0.5, 1));
   world.set_thrust(bat, {-6, 0});
   world.advance(5.0);
   EXPECT_TRUE(world.is_held(puck));
   world.remove(bat);
   EXPECT_FALSE(world.is_held(puck));
   EXPECT_FALSE(world.is_in_play(bat));
-  PuckSpec striker = puck_at(1.5, 1);
+  PuckSpec striker = light_puck_at(1.5, 1);
   striker.velocity = {-1, 0};
   world.add(striker);
   world.advance(15.0);
