@@ -60,6 +60,9 @@ class Filter {
   virtual std::span<const Change> match() = 0;
 
   virtual const FilterCounters& counters() const = 0;
+
+  /// Side of the cells that it decides by [m]; 0 if it has none. For who shows them.
+  virtual double cell_size() const { return 0.0; }
 };
 
 /// What a scheme may need to know to start.

@@ -31,6 +31,7 @@ class GridFilter final : public OverlapFilter {
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     OverlapFilter::set_subscription_region(subscriber, touched(region, world_, cell_size_));
   }
+  double cell_size() const override { return cell_size_; }
 
  private:
   static Region touched(const Region& region, const Region& world, double size) {

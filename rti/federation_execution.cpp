@@ -69,4 +69,15 @@ void FederationExecution::list_scope(FederateHandle federate, std::vector<Object
   parts_->interest_.of(federate_slot).in_scope.for_each([&](ObjectSlot slot) { objects.push_back(parts_->objects_[slot].handle); });
 }
 
+void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {
+  for (std::uint32_t slot = 0; slot < parts_->federates_.size(); ++slot) {
+    if (!parts_->federates_[slot].is_joined) continue;
+    const FederateInterest& interest = parts_->interest_.of(slot);
+    for (const FederateInterest::Regional& each : interest.regionals) {
+      const FederateInterest::Region& region = interest.regions[each.region.value];
+      if (region.has_bounds) regions.push_back({parts_->federates_[slot].handle, region.bounds});
+    }
+  }
+}
+
 }  // namespace rink::rti

@@ -54,6 +54,12 @@ struct FederationCounters {
   std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`
 };
 
+/// Where a federate subscribes, as it last committed it.
+struct SubscribedRegion {
+  FederateHandle federate;
+  im::Region bounds;
+};
+
 /// Where `flush` leaves what must go out.
 class Outlet {
  public:
@@ -91,6 +97,8 @@ class FederationExecution {
   bool is_in_scope(FederateHandle federate, ObjectHandle object) const;
   /// Appends every object that `federate` is told of since the last match, in no particular order.
   void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
+  /// Appends every region with bounds that a federate subscribes with.
+  void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   const FederationCounters& counters() const;
   const im::Filter& filter() const;
 

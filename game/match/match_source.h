@@ -8,6 +8,7 @@
 
 #include "game/control/game.h"
 #include "game/control/match_flow.h"
+#include "game/match/interest_seen.h"
 #include "game/model/key.h"
 
 namespace rink::game {
@@ -57,6 +58,7 @@ struct MatchSight {
   std::string notice;                      ///< one line for the player, or nothing
   std::vector<Noise> noises;               ///< since the last advance
   std::optional<LinkFigures> link;         ///< of a match over a network
+  std::optional<InterestSeen> interest;    ///< of a crowd that is inspected
 };
 
 /// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never falls.
@@ -77,6 +79,9 @@ class MatchSource {
   virtual void pause(bool is_wanted) = 0;
   /// Asks for another match once this one is over; it starts when everybody has asked.
   virtual void rematch() = 0;
+
+  /// Who watches a crowd wants to see what interest management decides of this thing, or of nothing in particular; to be said again as long as it is wanted.
+  virtual void inspect(std::uint32_t) {}
 };
 
 }  // namespace rink::game

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/net/interest_codec.h"
 #include "game/net/view.h"
 #include "game/replication/names.h"
 
@@ -18,6 +19,10 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
   ambassador_.subscribe_interaction_class(model_.seat);
   ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent, model_.drag});
   ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
+  if (settings.only_watches) {
+    ambassador_.publish_interaction_class(model_.inspect);
+    ambassador_.subscribe_interaction_class(model_.interest);
+  }
   if (!settings.plays_match) return;
   for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.pong);
@@ -40,6 +45,7 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
     pong_ = Pong{stamp.tag, stamp.time};
     return;
   }
+  if (interaction == model_.interest) return receive_interest(parameters);
   SeatOffer offer;
   if (interaction != model_.seat || state_ != State::joining || !decode(parameters, offer)) return;
   if (offer.bat == SeatOffer::no_bat) {
@@ -100,6 +106,17 @@ void Client::pause(bool is_wanted) {
 void Client::ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
 
 void Client::ping(std::uint64_t number) { ambassador_.send_interaction(model_.ping, {}, {.time = 0.0, .tag = number}); }
+
+void Client::inspect(rti::ObjectHandle object) {
+  assert(settings_.only_watches);
+  const Inspection inspection{object.value};
+  ambassador_.send_interaction(model_.inspect, encode(encoded_, inspection), {});
+}
+
+void Client::receive_interest(rti::Bytes parameters) {
+  InterestSeen seen;
+  if (decode(parameters, seen)) interest_ = std::move(seen);
+}
 
 void Client::end_turn() { ambassador_.send_interaction(model_.update, {}, {}); }
 

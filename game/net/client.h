@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/match/interest_seen.h"
 #include "game/model/key.h"
 #include "game/replication/mirror.h"
 #include "rti/ambassador.h"
@@ -60,6 +61,8 @@ class Client : public rti::FederateAmbassador {
   void pause(bool is_wanted);
   void ask_rematch();
   void ping(std::uint64_t number);
+  /// Of one who only watches: asks what the server's filter decides of `object`.
+  void inspect(rti::ObjectHandle object);
   /// Synchronous mode: says that this player's turn is done.
   void end_turn();
   /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move (by half the margin).
@@ -89,6 +92,8 @@ class Client : public rti::FederateAmbassador {
     double server_s = 0.0;
   };
   std::optional<Pong> take_pong() { return std::exchange(pong_, std::nullopt); }
+  /// The server's answer to inspect(); given once.
+  std::optional<InterestSeen> take_interest() { return std::exchange(interest_, std::nullopt); }
   std::uint32_t keys_sent() const { return keys_sent_; }
   const Mirror& mirror() const { return mirror_; }
   /// All that it keeps: itself, tables and buffers [bytes].
@@ -107,6 +112,7 @@ class Client : public rti::FederateAmbassador {
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
   void set_scope(rti::ObjectHandle object, bool is_in);
+  void receive_interest(rti::Bytes parameters);
   void send_key(rti::InteractionClassHandle interaction, Key key, double instant);
   void look_around(const Position& centre);
   void subscribe_once_seated();
@@ -120,6 +126,7 @@ class Client : public rti::FederateAmbassador {
   rti::RegionHandle view_;
   std::optional<SeatOffer> seat_;
   std::optional<Pong> pong_;
+  std::optional<InterestSeen> interest_;
   Position centre_;
   im::Region view_bounds_;
   std::vector<std::byte> encoded_;

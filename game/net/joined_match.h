@@ -25,6 +25,7 @@ class JoinedMatch final : public MatchSource {
   void press(std::uint32_t hand, Key key, bool is_down) override { match_.press(hand, key, is_down); }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
+  void inspect(std::uint32_t thing) override { match_.inspect(thing); }
 
  private:
   static rti::ConnectionId connect(rti::TcpTransport& transport, const std::string& place);

@@ -35,6 +35,8 @@ class NetworkMatch final : public MatchSource {
   void press(std::uint32_t hand, Key key, bool is_down) override;
   void pause(bool is_wanted) override;
   void rematch() override;
+  /// A crowd only; the server is asked ten times a second.
+  void inspect(std::uint32_t thing) override { inspected_ = thing; }
   /// Takes leave of the server; nothing may follow.
   void leave(double now_s);
 
@@ -65,6 +67,7 @@ class NetworkMatch final : public MatchSource {
   void show_bodies();
   void show_mirror(double now_s);
   void show_state(double now_s);
+  void show_interest(double now_s);
   void show_link(double now_s);
   void lose(const std::string& why);
 
@@ -88,6 +91,8 @@ class NetworkMatch final : public MatchSource {
   double heard_s_ = 0.0;             ///< real time of the newest stamp
   double counted_s_ = 0.0, bytes_per_s_ = 0.0;
   std::uint64_t counted_bytes_ = 0;
+  std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
+  double inspected_s_ = 0.0;               ///< when the server was last asked
   std::string trouble_;
   bool has_left_ = false;
 };

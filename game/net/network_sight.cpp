@@ -1,5 +1,6 @@
 // What a network match shows, made of what is foretold, what is mirrored, and how the connection does.
 #include <algorithm>
+#include <utility>
 
 #include "game/net/network_match.h"
 
@@ -10,6 +11,7 @@ void NetworkMatch::show(double now_s) {
   if (rink_ && rink_->has_heard()) show_bodies();
   else if (settings_.only_watches) show_mirror(now_s);
   show_state(now_s);
+  show_interest(now_s);
   show_link(now_s);
   goals_.look(sight_, now_s, scene_ ? scene_->rules.face_off_delay : 0.0);
   noises_.listen(sight_);
@@ -62,6 +64,16 @@ void NetworkMatch::show_state(double now_s) {
   sight_.own_team = *own == 0 ? Team::left : Team::right;
   sight_.wants_rematch = state_.wants_rematch[*own];
   sight_.other_wants_rematch = state_.wants_rematch[1 - *own];
+}
+
+/// What is shown was decided up to a tenth of a second and a round trip ago.
+void NetworkMatch::show_interest(double now_s) {
+  if (auto told = client_.take_interest(); told && inspected_) sight_.interest = std::move(told);
+  const std::optional<std::uint32_t> wanted = std::exchange(inspected_, std::nullopt);
+  if (!wanted) sight_.interest.reset();
+  if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() || now_s < inspected_s_ + 0.1) return;
+  client_.inspect(rti::ObjectHandle{*wanted});
+  inspected_s_ = now_s;
 }
 
 void NetworkMatch::show_link(double now_s) {

@@ -40,7 +40,8 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
 void Server::joined(rti::FederateHandle) {
   ambassador_.watch_federates();
   ambassador_.publish_interaction_class(model_.seat);
-  for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.subscribe_interaction_class(interaction);
+  ambassador_.publish_interaction_class(model_.interest);
+  for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update, model_.inspect}) ambassador_.subscribe_interaction_class(interaction);
   publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_, sweep_);
   if (flow_) announce_match();
 }
@@ -97,6 +98,7 @@ void Server::offer_seat(rti::FederateHandle federate, const SeatOffer& offer) {
 
 void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) {
   if (flow_ && interaction == model_.ping) return answer(sender, stamp.tag);
+  if (interaction == model_.inspect) return note_inspection(sender, parameters);
   Seat* seat = seat_of(sender);
   if (seat == nullptr) return;
   if (interaction == model_.update) {

@@ -12,6 +12,7 @@
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/match_flow.h"
+#include "game/match/interest_seen.h"
 #include "game/replication/publisher.h"
 #include "rti/ambassador.h"
 
@@ -37,6 +38,7 @@ struct ServerSettings {
 
 struct ServerCounters {
   std::uint64_t keys_received = 0, keys_applied = 0, keys_refused = 0, federates_lost = 0;
+  std::uint64_t inspections_answered = 0;
   std::uint64_t keys_late = 0;  ///< of hosted matches: arrived after the instant for which they were stamped, by more than 0.1 ms
 };
 
@@ -80,6 +82,18 @@ class Server : public rti::FederateAmbassador {
   rti::ObjectHandle object(EntityId entity) const { return publisher_->object(entity); }
   /// The federate that plays `player`, if any does.
   std::optional<rti::FederateHandle> federate_of(std::uint32_t player) const;
+  /// The bat that `federate` plays; no handle if it plays none, or its bat is not there yet.
+  rti::ObjectHandle bat_of(rti::FederateHandle federate) const;
+  bool is_entity(rti::ObjectHandle object) const { return publisher_->is_entity(object); }
+
+  /// Who asked what interest management decided of which object, since it was last taken (interest_report.h). Players are not answered: they are to see what their filter lets them.
+  struct Inspecting {
+    rti::FederateHandle federate;
+    rti::ObjectHandle object;
+  };
+  std::vector<Inspecting> take_inspections() { return std::exchange(inspections_, {}); }
+  void tell_interest(rti::FederateHandle federate, InterestSeen seen);
+
   /// Every input applied so far, as stamped: a log that replays to the same state hash.
   const std::vector<InputEvent>& record() const { return record_; }
   const ServerCounters& counters() const { return counters_; }
@@ -113,6 +127,7 @@ class Server : public rti::FederateAmbassador {
   void receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double wanted_s);
   void receive_wish(Seat& seat, rti::InteractionClassHandle interaction, rti::Bytes parameters);
   void answer(rti::FederateHandle sender, std::uint64_t number);
+  void note_inspection(rti::FederateHandle sender, rti::Bytes parameters);
   void publish_match(const rti::Stamp& stamp);
   void announce_match();
   void begin_match();
@@ -135,6 +150,7 @@ class Server : public rti::FederateAmbassador {
   std::vector<Pending> pending_;            ///< keys received, not yet felt
   std::vector<std::uint32_t> felt_;         ///< by player
   std::vector<InputEvent> record_;
+  std::vector<Inspecting> inspections_;     ///< at most one of each federate
   std::uint32_t player_count_ = 0, turns_done_ = 0;
   bool is_started_ = false;
   std::string trouble_;

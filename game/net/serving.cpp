@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "game/net/interest_report.h"
+
 namespace rink::game {
 namespace {
 
@@ -56,6 +58,7 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   server_.simulate(simulated_s);
   watch.add_to(costs.physics_s);
   send(simulated_s, due_s, costs);
+  for (const Server::Inspecting& each : server_.take_inspections()) server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
   if (witness_) witness_->look(server_, execution_, {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
   host_.advance_clock(now_s_());
   return costs;

@@ -66,6 +66,8 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       pause(interaction_class(fom, "Pause")),
       rematch(interaction_class(fom, "Rematch")),
       ping(interaction_class(fom, "Ping")),
-      pong(interaction_class(fom, "Pong")) {}
+      pong(interaction_class(fom, "Pong")),
+      inspect(interaction_class(fom, "Inspect")),
+      interest(interaction_class(fom, "Interest")) {}
 
 }  // namespace rink::game

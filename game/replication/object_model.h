@@ -18,6 +18,7 @@ struct ObjectModel {
   rti::AttributeHandle match_state, match_scene;  ///< of match
   rti::InteractionClassHandle key_down, key_up, update, seat;
   rti::InteractionClassHandle pause, rematch, ping, pong;  ///< of hosted matches
+  rti::InteractionClassHandle inspect, interest;           ///< of who watches
 };
 
 }  // namespace rink::game

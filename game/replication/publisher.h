@@ -36,6 +36,9 @@ class Publisher {
   /// The RTI object of `entity`, which must be in the game.
   rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
 
+  /// False of the field and the score.
+  bool is_entity(rti::ObjectHandle object) const { return object != field_ && object != score_; }
+
   const PublisherCounters& counters() const { return counters_; }
 
  private:

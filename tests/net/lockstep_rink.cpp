@@ -33,9 +33,9 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
   for (std::uint32_t k = 0; k < settings.clients; ++k) add_client("bat-" + std::to_string(k));
 }
 
-Client& LockstepRink::add_client(const std::string& name) {
+Client& LockstepRink::add_client(const std::string& name, bool only_watches) {
   auto player = std::make_unique<Player>(network_);
-  const ClientSettings settings{.federation = "rink", .name = name, .view_fraction = settings_.view_fraction};
+  const ClientSettings settings{.federation = "rink", .name = name, .view_fraction = settings_.view_fraction, .only_watches = only_watches};
   player->client = std::make_unique<Client>(fom_, model_, settings);
   player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint, player->endpoint.connect("rti"));
   player->links.add(*player->link);

@@ -37,7 +37,7 @@ class LockstepRink {
   void tick();
   void run(double seconds);
 
-  Client& add_client(const std::string& name);
+  Client& add_client(const std::string& name, bool only_watches = false);
   /// Cuts client `index` off without a word, as kill -9 does.
   void kill(std::size_t index);
 
