@@ -1,4 +1,5 @@
-// Frames of the window, drawn offscreen at 1280x720: the lit match, and crowds from above. In software these run on the calling thread alone.
+// Frames of the window, drawn offscreen at 1280x720: the lit match, and crowds from above; alone, and with menus, words and overlay as `rink play` draws them. In software these run on the
+// calling thread alone.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <memory>
 
 #include "game/model/random_stream.h"
+#include "game/view/application.h"
 #include "game/view/picture_of.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/render/renderer.h"
@@ -33,6 +35,12 @@ class Stage {
     }
   }
   bool is_there() const { return renderer_ != nullptr; }
+  void draw(Application& application, double now_s) {
+    if (!interface_) interface_ = std::make_unique<Interface>();
+    application.draw(*interface_, renderer_.get(), {width, height, 1.0}, {target_.framebuffer(), 0, 0, width, height}, now_s);
+    glFinish();
+  }
+  bool is_settled() const { return renderer_->is_settled(); }
   void draw(const MatchSight& sight, const ViewChoice& choice, const Overlay& overlay = {}) {
     renderer_->draw(picture_of(sight, overlay, choice, aspect), {target_.framebuffer(), 0, 0, width, height});
     glFinish();
@@ -40,6 +48,7 @@ class Stage {
 
  private:
   std::unique_ptr<OffscreenContext> context_;
+  std::unique_ptr<Interface> interface_;
   std::unique_ptr<Renderer> renderer_;
   Target target_;
 };
@@ -86,7 +95,8 @@ void move(MatchSight& sight) {
 void frames(benchmark::State& state, MatchSight sight, ViewChoice choice, double centre_step = 0.0, const Overlay& overlay = {}) {
   Stage stage(state);
   if (!stage.is_there()) return;
-  for (int i = 0; i < 3; ++i) stage.draw(sight, choice, overlay);
+  do stage.draw(sight, choice, overlay);
+  while (!stage.is_settled());
   for (auto _ : state) {
     move(sight);
     choice.centre.x() += centre_step;
@@ -122,5 +132,77 @@ void view_overlay(benchmark::State& state) {
   frames(state, sight, {.viewpoint = Viewpoint::above}, 0.0, overlay);
 }
 BENCHMARK(view_overlay)->Name("view/crowd_overlay")->Arg(10'000)->ArgName("discs")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// Moves by itself.
+class MovingMatch final : public MatchSource {
+ public:
+  explicit MovingMatch(const MatchSight& sight) : sight_(sight) {}
+  void advance(double) override { move(sight_); }
+  const MatchSight& sight() const override { return sight_; }
+  std::uint32_t hand_count() const override { return sight_.goals_to_win ? 2 : 0; }
+  void press(std::uint32_t, game::Key, bool) override {}
+  void pause(bool) override {}
+  void rematch() override {}
+
+ private:
+  MatchSight sight_;
+};
+
+/// What a filter with regions of a twentieth of the field would tell of the bat in the middle.
+game::InterestSeen decided(const MatchSight& sight) {
+  const double half = 0.5 * std::sqrt(0.05 * sight.field.length * sight.field.width);
+  const Vector2 middle(0.5 * sight.field.length, 0.5 * sight.field.width);
+  game::InterestSeen seen{.cell_size = 1.0f, .views = {}, .heard = {}};
+  const Thing* asked = nullptr;
+  for (const Thing& thing : sight.things)
+    if (thing.kind == physics::BodyKind::bat && (asked == nullptr || (thing.position - middle).norm() < (asked->position - middle).norm())) asked = &thing;
+  seen.asked = asked->id;
+  for (const Thing& thing : sight.things) {
+    const bool is_near = (thing.position - asked->position).cwiseAbs().maxCoeff() < half;
+    if (is_near) seen.heard.push_back(thing.id);
+    const Eigen::Array2f low = (thing.position.array() - half).cast<float>(), high = (thing.position.array() + half).cast<float>();
+    if (thing.kind == physics::BodyKind::bat) seen.views.push_back({thing.id, is_near, low.x(), low.y(), high.x(), high.y()});
+  }
+  return seen;
+}
+
+/// All of it: `rink play --figures` at a match, split or with one camera, and at a crowd, with and without the overlay of interest.
+void view_played(benchmark::State& state, const MatchSight& sight, bool is_split) {
+  Stage stage(state);
+  if (!stage.is_there()) return;
+  Settings settings;
+  settings.is_split = is_split;
+  Application application({.make_match = [&](const MatchWish&) { return std::make_unique<MovingMatch>(sight); }}, settings);
+  application.play({.kind = MatchWish::Kind::two, .address = {}});
+  application.show_figures();
+  double now_s = 0.0;
+  for (int i = 0; i < 3 || !stage.is_settled(); ++i) stage.draw(application, now_s += 1.0 / 120.0);
+  for (auto _ : state) stage.draw(application, now_s += 1.0 / 120.0);
+  state.counters["frames_per_s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.SetLabel(graphics_name());
+}
+
+void view_played_match(benchmark::State& state) { view_played(state, match_sight(), state.range(0) != 0); }
+BENCHMARK(view_played_match)->Name("view/played_match")->Arg(0)->Arg(1)->ArgName("split")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void view_played_crowd(benchmark::State& state) {
+  MatchSight sight = crowd_sight(10'000);
+  if (state.range(0) != 0) sight.interest = decided(sight);
+  view_played(state, sight, false);
+}
+BENCHMARK(view_played_crowd)->Name("view/played_crowd")->Arg(0)->Arg(1)->ArgName("interest")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// The longest of the frames after the camera changed to one that nothing was kept of: each time the table is a little longer.
+void view_cut(benchmark::State& state) {
+  Stage stage(state);
+  if (!stage.is_there()) return;
+  MatchSight sight = match_sight();
+  stage.draw(sight, {});
+  for (auto _ : state) {
+    sight.field.length += 1e-4;
+    stage.draw(sight, {});
+  }
+}
+BENCHMARK(view_cut)->Name("view/cut")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -13,9 +13,11 @@
 namespace rink::view {
 namespace {
 
-/// The own bat, the one whose interest is shown, or else the puck.
+constexpr double click_reach = 8.0;  ///< pixels: so far the mouse may move in a click, and may miss
+
+/// The own bat, what is asked of in a crowd, or else the puck.
 const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest) {
-  if (!sight.own_team && interest.view_fraction > 0.0) return chosen_bat(sight, interest);
+  if (!sight.own_team && sight.interest) return asked_thing(sight, interest);
   const auto wanted = sight.own_team ? physics::BodyKind::bat : physics::BodyKind::puck;
   const auto found = std::ranges::find_if(sight.things, [&](const Thing& thing) { return thing.kind == wanted && (!sight.own_team || thing.team == *sight.own_team); });
   return found != sight.things.end() ? &*found : nullptr;
@@ -93,16 +95,35 @@ void Application::hear_key(KeyCode code, bool is_down) {
   hear_command(code);
 }
 
+/// Two who share the keyboard see the table each from the own end, unless they chose a camera for both.
+bool Application::is_split() const { return settings_.is_split && !chosen_viewpoint_ && match_->hand_count() == 2 && wish_.kind != MatchWish::Kind::bots; }
+
+void Application::set_split(bool is_wanted) {
+  if (match_->hand_count() != 2) return;
+  release_all();
+  settings_.is_split = is_wanted;
+  chosen_viewpoint_.reset();
+  do_wish({MenuWish::Kind::settings_changed, {}});
+}
+
+/// Where the player `hand` of this keyboard sees the table from.
+Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
+  if (!is_split()) return view_.viewpoint;
+  return hand == 0 ? Viewpoint::left_end : Viewpoint::right_end;
+}
+
 /// Keys that steer the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
   switch (code) {
-    case GLFW_KEY_TAB: ++interest_.chosen; return true;
+    case GLFW_KEY_TAB: ++interest_.chosen; interest_.picked.reset(); return true;
+    case GLFW_KEY_I: interest_.is_shown = !interest_.is_shown; return true;
+    case GLFW_KEY_V: set_split(!is_split()); return true;
     case GLFW_KEY_ESCAPE:
     case GLFW_KEY_P: set_paused(true); return true;
     case GLFW_KEY_C:
       release_all();
-      chosen_viewpoint_ = static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
+      chosen_viewpoint_ = is_split() ? Viewpoint::side : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
       return true;
     case GLFW_KEY_M: settings_.is_muted = !settings_.is_muted; do_wish({MenuWish::Kind::settings_changed, {}}); return true;
     case GLFW_KEY_F: follows_ = !follows_; return true;
@@ -131,28 +152,48 @@ bool Application::hear_replay(KeyCode code) {
   }
 }
 
-/// Seen from above: the wheel zooms, dragging moves what is seen.
+/// Seen from above: the wheel zooms, dragging moves what is seen, a click asks of what is there.
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
   if (event.kind == Kind::scroll) view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
-  else if (event.kind == Kind::mouse_button) is_dragging_ = event.is_down;
+  else if (event.kind == Kind::mouse_button && event.is_down) is_dragging_ = true, dragged_ = 0.0;
+  else if (event.kind == Kind::mouse_button && std::exchange(is_dragging_, false) && dragged_ < click_reach) click();
   else if (event.kind == Kind::mouse_move) {
-    if (is_dragging_) {
-      const Sight seen(camera_of(match_->sight().field, view_, static_cast<double>(size_.width) / size_.height), static_cast<float>(size_.width) / static_cast<float>(size_.height));
-      const physics::Field& field = match_->sight().field;
-      view_.centre.x() -= 2.0 * (event.x - mouse_x_) / size_.width * static_cast<double>(seen.right().x()) / field.length;
-      view_.centre.y() += 2.0 * (event.y - mouse_y_) / size_.height * static_cast<double>(seen.up().y()) / field.width;
-      view_.centre = view_.centre.cwiseMax(0.0).cwiseMin(1.0);
-      follows_ = false;
-    }
+    if (is_dragging_) drag(event.x - mouse_x_, event.y - mouse_y_);
     mouse_x_ = event.x, mouse_y_ = event.y;
   }
+}
+
+/// The camera of the last frame.
+Sight Application::seen() const {
+  const double aspect = static_cast<double>(size_.width) / size_.height;
+  return {camera_of(match_->sight().field, view_, aspect), static_cast<float>(aspect)};
+}
+
+/// `across`, `down`: pixels.
+void Application::drag(double across, double down) {
+  dragged_ += std::abs(across) + std::abs(down);
+  if (dragged_ < click_reach) return;
+  const Sight sight = seen();
+  const physics::Field& field = match_->sight().field;
+  view_.centre.x() -= 2.0 * across / size_.width * static_cast<double>(sight.right().x()) / field.length;
+  view_.centre.y() += 2.0 * down / size_.height * static_cast<double>(sight.up().y()) / field.width;
+  view_.centre = view_.centre.cwiseMax(0.0).cwiseMin(1.0);
+  follows_ = false;
+}
+
+void Application::click() {
+  if (!match_->sight().interest || view_.viewpoint != Viewpoint::above) return;
+  const Sight sight = seen();
+  const Eigen::Vector2f at(static_cast<float>(2.0 * mouse_x_ / size_.width - 1.0), static_cast<float>(1.0 - 2.0 * mouse_y_ / size_.height));
+  const double pixel = 2.0 * static_cast<double>(sight.up().y()) / size_.height;
+  if (const auto thing = thing_at(match_->sight(), sight.on_table(at).cast<double>(), click_reach * pixel)) interest_.picked = thing;
 }
 
 /// One who plays alone may use either set of keys; each key means what it looks like from where the player sees the table.
 void Application::press(KeyCode code, const Bound& meaning) {
   const std::uint32_t hand = match_->hand_count() == 1 ? 0 : meaning.hand;
-  const game::Key key = seen_from(view_.viewpoint, meaning.key);
+  const game::Key key = seen_from(viewpoint_of(hand), meaning.key);
   const bool was_down = std::ranges::any_of(held_, [&](const HeldKey& held) { return held.hand == hand && held.key == key; });
   held_.push_back({code, hand, key});
   if (!was_down) match_->press(hand, key, true);
@@ -213,29 +254,48 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   return choice;
 }
 
+/// The whole window, or beside each other what each of two players sees.
+void Application::draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s) {
+  const MatchSight& sight = match_->sight();
+  const ViewChoice choice = view(sight, now_s);
+  const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots, has_settings = menu_.screen() == Menu::Screen::settings;
+  const auto picture_from = [&](Viewpoint viewpoint, const Canvas& part) {
+    ViewChoice there = choice;
+    there.viewpoint = viewpoint;
+    Picture picture = picture_of(sight, interest_overlay(sight, interest_), there, static_cast<double>(part.width) / part.height);
+    if (is_behind_menu) picture.board.is_there = false;
+    if (renderer != nullptr) renderer->draw(picture, part);
+    return picture;
+  };
+  const bool has_two = is_split();
+  Picture words;
+  if (has_two) {
+    const int left = canvas.width / 2;
+    picture_from(Viewpoint::right_end, {canvas.framebuffer, canvas.x + left, canvas.y, canvas.width - left, canvas.height});
+    words = picture_from(Viewpoint::left_end, {canvas.framebuffer, canvas.x, canvas.y, left, canvas.height});
+  } else {
+    words = picture_from(choice.viewpoint, canvas);
+  }
+  words.is_split = has_two;
+  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) words.texts.push_back(replay_line(*replay));
+  if (is_behind_menu || has_settings) {
+    words.texts.clear();
+    words.dimming = is_behind_menu ? 0.45f : 0.6f;
+  }
+  interface.draw(words);
+}
+
 void Application::draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s) {
   size_ = size;
+  if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr) match_->inspect(asked->id);
   match_->advance(now_s);
   follow_phase();
-  const MatchSight& sight = match_->sight();
-  const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots;
-  if (surroundings_.sound && !is_behind_menu) surroundings_.sound(sight.noises, settings_);
-  Picture picture = picture_of(sight, interest_overlay(sight, interest_), view(sight, now_s), static_cast<double>(size.width) / size.height);
-  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) picture.texts.push_back(replay_line(*replay));
-  if (is_behind_menu) {
-    picture.texts.clear();
-    picture.board.is_there = false;
-    picture.dimming = 0.45f;
-  } else if (menu_.screen() == Menu::Screen::settings) {
-    picture.texts.clear();
-    picture.dimming = 0.6f;
-  }
-  if (renderer != nullptr) renderer->draw(picture, canvas);
+  if (surroundings_.sound && wish_.kind != MatchWish::Kind::bots) surroundings_.sound(match_->sight().noises, settings_);
   interface.begin(size, last_s_ < 0.0 ? 0.0 : now_s - last_s_);
+  draw_views(interface, renderer, canvas, now_s);
   last_s_ = now_s;
-  interface.draw(picture);
-  const MenuWish wish = menu_.draw(interface, settings_, sight);
-  interface.finish(canvas);
+  const MenuWish wish = menu_.draw(interface, settings_, match_->sight());
+  interface.finish(canvas, renderer != nullptr);
   do_wish(wish);
 }
 

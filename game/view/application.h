@@ -39,15 +39,13 @@ class Application {
 
   void hear(const WindowEvent& event);
   /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL, must exist.
-  /// Without a renderer the instant passes unseen: nothing but widgets is drawn.
+  /// Without a renderer the instant passes unseen: nothing is drawn.
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s);
 
   bool wants_to_quit() const { return wants_to_quit_; }
   /// Of a match that was started by play(): true once it is over or gone.
   bool is_in_menu() const { return wish_.kind == MatchWish::Kind::bots; }
   const MatchSight& sight() const { return match_->sight(); }
-  /// What of interest management is to be seen over the match.
-  void set_interest(const InterestChoice& interest) { interest_ = interest; }
 
  private:
   struct HeldKey {
@@ -66,6 +64,13 @@ class Application {
   void release(KeyCode code);
   void release_all();
   void set_paused(bool is_wanted);
+  bool is_split() const;
+  void set_split(bool is_wanted);
+  Viewpoint viewpoint_of(std::uint32_t hand) const;
+  Sight seen() const;
+  void drag(double across, double down);
+  void click();
+  void draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s);
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
 
@@ -80,7 +85,7 @@ class Application {
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
   bool shows_figures_ = false, follows_ = false, is_dragging_ = false;
-  double mouse_x_ = 0.0, mouse_y_ = 0.0;
+  double mouse_x_ = 0.0, mouse_y_ = 0.0, dragged_ = 0.0;  ///< pixels
   WindowSize size_;
   double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
   bool wants_to_quit_ = false;

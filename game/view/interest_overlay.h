@@ -1,24 +1,28 @@
-// Interest management made visible: the grid's cells, every bat's view, and in colour what the chosen bat's view takes in.
+// Interest management made visible: cells, every federate's subscription region, and in colour who hears of what.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "game/view/match_source.h"
 #include "game/view/render/overlay.h"
 
 namespace rink::view {
 
-/// What to show, in the server's and clients' own terms.
+/// What of it is to be seen.
 struct InterestChoice {
-  double cell_size = 0.0;      ///< of the grid scheme [m]; 0: none
-  double view_fraction = 0.0;  ///< of the field's area that a client sees around its bat (as rink bots --view); 0: none
-  std::uint32_t chosen = 0;    ///< the bat whose interest is coloured, counted modulo the bats that are there
+  bool is_shown = true;
+  std::uint32_t chosen = 0;              ///< the bat that is asked of, counted modulo the bats that are there
+  std::optional<std::uint32_t> picked{}; ///< the thing that is asked of instead, by its id, as long as it is there
 };
 
-/// Views follow the same rule as clients declare them by (game/net/view.h), and an entity is in a view when its box touches it: what ought to be heard, not a record of what was.
-/// The bat whose interest is coloured; null if there is none.
-const Thing* chosen_bat(const MatchSight& sight, const InterestChoice& choice);
+/// The thing whose interest is coloured; null if there is none.
+const Thing* asked_thing(const MatchSight& sight, const InterestChoice& choice);
 
+/// The nearest thing within `reach` [m] of `place`; nothing if there is none.
+std::optional<std::uint32_t> thing_at(const MatchSight& sight, const Vector2& place, double reach);
+
+/// Shows what `sight.interest` says was decided, and works nothing out again; empty without it. Green: what the federate that plays the asked bat hears of. Orange: who hears of what is asked of.
 Overlay interest_overlay(const MatchSight& sight, const InterestChoice& choice);
 
 }  // namespace rink::view

@@ -119,6 +119,7 @@ void Interface::draw(const Picture& picture) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   if (picture.dimming > 0.0f) list.AddRectFilled({0.0f, 0.0f}, size, packed({0.01f, 0.015f, 0.03f, picture.dimming}));
+  if (picture.is_split) list.AddRectFilled({0.5f * size.x - 2.0f * unit_, 0.0f}, {0.5f * size.x + 2.0f * unit_, size.y}, packed({0.02f, 0.03f, 0.05f, 1.0f}));
   for (const Text& text : picture.texts) {
     const float height = text.size * 720.0f * unit_;
     const auto larger = std::ranges::find_if(fonts_, [height](const ImFont* font) { return font->FontSize >= 0.8f * height; });
@@ -135,7 +136,8 @@ void Interface::draw(const Picture& picture) {
   }
 }
 
-void Interface::finish(const Canvas& canvas) {
+void Interface::finish(const Canvas& canvas, bool is_seen) {
+  if (!is_seen) return ImGui::EndFrame();
   ImGui::Render();
   glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
   glViewport(0, 0, canvas.width, canvas.height);

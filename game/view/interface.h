@@ -26,8 +26,8 @@ class Interface {
   void begin(const WindowSize& size, double elapsed_s);
   /// Texts and darkness of `picture`, under all widgets.
   void draw(const Picture& picture);
-  /// Draws widgets and texts over what the canvas shows.
-  void finish(const Canvas& canvas);
+  /// Draws widgets and texts over what the canvas shows, if it is seen.
+  void finish(const Canvas& canvas, bool is_seen);
 
   /// True while widgets take the keyboard for a text.
   bool wants_text() const;

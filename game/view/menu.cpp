@@ -180,10 +180,11 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   ImGui::Checkbox("Mute", &settings.is_muted);
   ImGui::SameLine();
   float volume = static_cast<float>(settings.volume);
-  ImGui::SetNextItemWidth(220.0f * unit_);
+  ImGui::SetNextItemWidth(320.0f * unit_);
   if (ImGui::SliderFloat("Volume", &volume, 0.0f, 1.0f, "%.2f")) settings.volume = std::clamp(static_cast<double>(volume), 0.0, 1.0);
-  ImGui::SameLine();
   if (ImGui::Checkbox("Full screen", &settings.is_full_screen)) wish.kind = MenuWish::Kind::full_screen;
+  ImGui::SameLine();
+  ImGui::Checkbox("Split screen for two", &settings.is_split);
   ImGui::PopFont();
   if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);

@@ -141,8 +141,8 @@ Camera camera_of(const physics::Field& field, const ViewChoice& choice, double a
     camera.centre_y = static_cast<float>(choice.centre.y() * field.width);
     return camera;
   }
-  // Narrow windows see the table from further away.
-  const float away = std::max(1.0f, static_cast<float>(1.6 / aspect));
+  // Narrow windows see the table from further away; from an end it takes less of their width.
+  const float away = std::max(1.0f, static_cast<float>((choice.viewpoint == Viewpoint::side ? 1.6 : 1.12) / aspect));
   if (choice.viewpoint == Viewpoint::side) {
     camera.target = {0.5f * length, 0.53f * width, 0.0f};
     camera.eye = camera.target + Vector3(0.0f, -1.30f * width, 1.52f * width) * (away * std::max(1.0f, length / (2.0f * width)));

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -32,6 +33,8 @@ using view::MatchWish;
 
 constexpr double offscreen_frame_s = 1.0 / 60.0, shortest_frame_s = 1.0 / 250.0;  // the latter where the driver does not wait for the screen
 
+volatile std::sig_atomic_t is_interrupted = 0;
+
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void tell(const std::string& trouble) { std::cerr << "rink play: " << trouble << '\n'; }
@@ -43,6 +46,18 @@ std::string records_folder(const view::PlayOptions& options) {
   if (const char* folder = std::getenv("XDG_DATA_HOME"); folder != nullptr && *folder != '\0') return std::string(folder) + "/rink/matches";
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') return std::string(home) + "/.local/share/rink/matches";
   return "matches";
+}
+
+/// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for it is the match that matters.
+std::string host_records(const std::string& folder) {
+  try {
+    game::MatchRecords(folder).require_writable();
+    return folder;
+  } catch (const std::exception& error) {
+    const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
+    tell(std::string(error.what()) + "; they are kept in " + other);
+    return other;
+  }
 }
 
 /// A local match whose records are kept, also of one that is given up. A record that cannot be written is told of; the match goes on.
@@ -94,7 +109,7 @@ class HostedMatch final : public game::MatchSource {
 std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
-  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, records);
+  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, host_records(records));
   if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())});
   if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true});
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
@@ -163,7 +178,6 @@ class Process {
 
 void Process::open(view::Window* window) {
   interface_ = std::make_unique<view::Interface>();
-  renderer_ = std::make_unique<view::Renderer>();
   view::Surroundings surroundings;
   surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_); };
   surroundings.tell = tell;
@@ -178,12 +192,12 @@ void Process::open(view::Window* window) {
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
-  application_->set_interest({.cell_size = options_.cell_size, .view_fraction = options_.view_fraction, .chosen = 0});
   if (!troubles_.empty()) application_->explain(troubles_);
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
 }
 
 void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
+  if (is_seen && !renderer_) renderer_ = std::make_unique<view::Renderer>();  // half a second in software, for which a script that takes no picture does not wait
   application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size, {framebuffer, 0, 0, size.width, size.height}, now);
 }
 
@@ -193,15 +207,17 @@ void Process::run_in_window(const view::WindowSize& size) {
   const Opened opened(*this, &window);
   const double start_s = now_s();
   bool is_ended = false;
-  while (!application_->wants_to_quit() && !is_ended) {
+  while (!application_->wants_to_quit() && !is_ended && !is_interrupted) {
     const double begin_s = now_s();
     for (const view::WindowEvent& event : window.events()) interface_->hear(event), application_->hear(event);
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
     for (const view::ScriptStep& step : due)
       for (const view::WindowEvent& event : step.events) interface_->hear(event), application_->hear(event);
+    // One that is too small to be seen goes on unseen: a match over a network must not fall silent.
     const view::WindowSize now_size = window.size();
-    if (now_size.width > 0 && now_size.height > 0) {
-      draw(now_size, 0, begin_s, true);
+    const bool is_seen = now_size.width > 0 && now_size.height > 0;
+    draw(is_seen ? now_size : size, 0, begin_s, is_seen);
+    if (is_seen) {
       for (const view::ScriptStep& step : due)
         if (!step.picture.empty()) picture(step.picture, 0, now_size);
     }
@@ -220,7 +236,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
   const double start_s = now_s();
   const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty();
   bool is_ended = false;
-  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && next_step_ < script_.size(); ++frame) {
+  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && !is_interrupted && next_step_ < script_.size(); ++frame) {
     const double now = static_cast<double>(frame) * offscreen_frame_s;
     if (is_shared && start_s + now > now_s()) std::this_thread::sleep_for(std::chrono::duration<double>(start_s + now - now_s()));
     const auto due = view::due_steps(script_, next_step_, now);
@@ -230,8 +246,9 @@ void Process::run_offscreen(const view::WindowSize& size) {
       is_seen = is_seen || !step.picture.empty();
       is_ended = is_ended || step.is_end;
     }
-    if (is_seen) draw(size, target.framebuffer(), now, true);  // twice, for the first may be drawn as of a camera that moves
     draw(size, target.framebuffer(), now, is_seen);
+    if (is_seen) do draw(size, target.framebuffer(), now, true);  // the first may be drawn as of a camera that moves
+      while (!renderer_->is_settled());
     for (const view::ScriptStep& step : due)
       if (!step.picture.empty()) picture(step.picture, target.framebuffer(), size);
   }
@@ -251,18 +268,19 @@ game::ExitStatus play(const view::PlayOptions& options) {
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
   else process.run_in_window(*size);
-  return game::ExitStatus::ok;
+  return is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 
 }  // namespace
 
 int main(int count, char** values) {
   std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_interrupted = 1; });  // records are written, the server is told, a hosted one ended
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
   view::PlayOptions options;
   view::add_options(app, options);
   app.footer(std::string("Example: rink play --bot club\n"
-                         "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, + and - zoom and F follows from above, M mutes,\n"
+                         "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V splits the screen for two, + and - zoom and F follows from above, M mutes,\n"
                          "F3 shows figures, F11 fills the screen.\n") +
              game::exit_status_help);
   try {

@@ -15,7 +15,6 @@ namespace rink::view {
 struct PlayOptions {
   bool is_two = false;
   std::string bot, host, join, watch, replay, records;
-  double cell_size = 0.0, view_fraction = 0.0;
   std::string camera;
   std::string size = "1280x720";
   bool is_full_screen = false, is_muted = false, shows_figures = false;
@@ -31,15 +30,13 @@ inline void add_options(CLI::App& app, PlayOptions& options) {
   const auto bot = app.add_option("--bot", options.bot, "one player against a bot of this strength")->check(CLI::IsMember({"beginner", "club", "expert"}));
   const auto host = app.add_option("--host", options.host, "host a match on PORT and play it")->type_name("PORT");
   const auto join = app.add_option("--join", options.join, "join the match at HOST:PORT")->type_name("HOST:PORT");
-  const auto watch = app.add_option("--watch", options.watch, "watch the match or the crowd at HOST:PORT")->type_name("HOST:PORT");
+  const auto watch = app.add_option("--watch", options.watch, "watch the match or the crowd at HOST:PORT; of a crowd, I shows who hears of what, Tab or a click of which body")->type_name("HOST:PORT");
   const auto replay = app.add_option("--replay", options.replay, "watch a recorded match: space stops it, left and right seek, up and down change its speed")->type_name("FILE");
   for (CLI::Option* one : {two, bot, host, join, watch, replay})
     for (CLI::Option* other : {two, bot, host, join, watch, replay})
       if (one != other) one->excludes(other);
-  app.add_option("--cells", options.cell_size, "draw the cells of a grid over the field [m]")->check(game::number_from(0.0, 1e6));
-  app.add_option("--views", options.view_fraction, "draw what each bat's client sees, as a fraction of the field's area; Tab chooses whose is coloured")->check(game::number_from(0.0, 1.0));
   app.add_option("--records", options.records, "folder for the records of matches (default: rink/matches in $XDG_DATA_HOME or ~/.local/share)")->type_name("FOLDER");
-  app.add_option("--camera", options.camera, "where to see it from; C changes it")->check(CLI::IsMember({"left", "right", "side", "above"}));
+  app.add_option("--camera", options.camera, "where to see it from; C changes it, V gives each of two players their own again")->check(CLI::IsMember({"left", "right", "side", "above"}));
   app.add_option("--size", options.size, "of the window")->type_name("WIDTHxHEIGHT")->capture_default_str();
   app.add_flag("--full-screen", options.is_full_screen, "fill the screen; F11 changes it");
   app.add_flag("--mute", options.is_muted, "no sound; M changes it");

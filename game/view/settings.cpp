@@ -30,8 +30,8 @@ class Reader {
 
   void read_entry(std::string_view key, const toml::node& node) {
     Settings& settings = read_.settings;
-    if (key == "mute" || key == "full_screen") {
-      if (const auto value = node.value_exact<bool>()) (key == "mute" ? settings.is_muted : settings.is_full_screen) = *value;
+    if (key == "mute" || key == "full_screen" || key == "split_screen") {
+      if (const auto value = node.value_exact<bool>()) (key == "mute" ? settings.is_muted : key == "full_screen" ? settings.is_full_screen : settings.is_split) = *value;
       else trouble(node, std::string(key) + " must be true or false");
     } else if (key == "volume") {
       const auto value = node.value<double>();
@@ -40,7 +40,7 @@ class Reader {
     } else if (key == "keys" && node.is_table()) {
       read_keys(*node.as_table());
     } else {
-      trouble(node, "there is no setting '" + std::string(key) + "'; there are: mute, volume, full_screen, keys.left, keys.right");
+      trouble(node, "there is no setting '" + std::string(key) + "'; there are: mute, volume, full_screen, split_screen, keys.left, keys.right");
     }
   }
 
@@ -113,7 +113,8 @@ ReadSettings parse_settings(std::string_view text, const std::string& file) {
 std::string settings_text(const Settings& settings) {
   std::ostringstream text;
   text << "# Rink's settings for playing. Keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...\n";
-  text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false") << '\n';
+  text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false")
+       << "\nsplit_screen = " << (settings.is_split ? "true" : "false") << '\n';
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)
@@ -131,6 +132,7 @@ ReadSettings read_settings(const std::string& file) {
 }
 
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file) {
+  if (file.empty()) return "the settings cannot be kept: neither XDG_CONFIG_HOME nor HOME is set";
   std::error_code ignored;
   std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
   std::ofstream stream(file);

@@ -27,6 +27,7 @@ struct Settings {
   bool is_muted = false;
   double volume = 0.7;         ///< 0 to 1
   bool is_full_screen = false;
+  bool is_split = true;        ///< two at one keyboard see the table each from the own end
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };

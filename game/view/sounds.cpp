@@ -3,13 +3,13 @@
 
 #include <AL/al.h>
 #include <AL/alc.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <filesystem>
 
 namespace rink::view {
 namespace {
@@ -76,6 +76,30 @@ std::vector<std::int16_t> sound_of(Noise::Kind kind) {
   return {};
 }
 
+namespace {
+
+/// Nothing that is written to standard error while it lives is seen: each of OpenAL's drivers complains in its own way, and no device is no trouble.
+class Silence {
+ public:
+  Silence() : kept_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~Silence() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int kept_;
+};
+
+}  // namespace
+
 struct Sounds::Device {
   ALCdevice* device = nullptr;
   ALCcontext* context = nullptr;
@@ -85,13 +109,17 @@ struct Sounds::Device {
 };
 
 Sounds::Sounds() {
-  setenv("ALSOFT_LOGLEVEL", "0", 0);  // no device is no trouble
-  if (!std::filesystem::exists("/dev/snd")) setenv("ALSOFT_DRIVERS", "-alsa,", 0);  // or ALSA itself would complain on standard error
+  const Silence silence;
   ALCdevice* device = alcOpenDevice(nullptr);
   if (device == nullptr) return;
+  ALCcontext* context = alcCreateContext(device, nullptr);
+  if (context == nullptr) {
+    alcCloseDevice(device);
+    return;
+  }
   device_ = std::make_unique<Device>();
   device_->device = device;
-  device_->context = alcCreateContext(device, nullptr);
+  device_->context = context;
   alcMakeContextCurrent(device_->context);
   alGenBuffers(kind_count, device_->buffers.data());
   alGenSources(source_count, device_->sources.data());

@@ -1,40 +1,62 @@
-// What the overlay of interest marks, against its definition.
+// What the overlay of interest shows of the decisions that it is given.
 #include "game/view/interest_overlay.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace rink::view {
 namespace {
 
-MatchSight sight_with(std::vector<Thing> things) {
+using game::InterestSeen;
+using physics::BodyKind;
+
+/// Two bats, 3 and 7, and two pucks; the player of bat 7 hears of bat 3 and puck 8, that of bat 3 of bat 7.
+MatchSight decided_sight() {
   MatchSight sight;
   sight.field = {.length = 20.0, .width = 10.0};
-  sight.things = std::move(things);
+  sight.things = {{7, BodyKind::bat, game::Team::left, {10.0, 5.0}, {0.0, 0.0}, {0.05, 0.15}},
+                  {3, BodyKind::bat, game::Team::right, {2.0, 2.0}, {0.0, 0.0}, {0.05, 0.15}},
+                  {8, BodyKind::puck, game::Team::none, {11.0, 5.0}, {0.0, 0.0}, {0.04, 0.04}},
+                  {9, BodyKind::puck, game::Team::none, {10.5, 5.0}, {0.0, 0.0}, {0.04, 0.04}}};
+  sight.interest = InterestSeen{.asked = 7, .cell_size = 0.5f, .view_count = 2, .heard_count = 2, .hearer_count = 1,
+                                .views = {{7, false, 8.0f, 3.0f, 12.0f, 7.0f}, {3, true, 0.0f, 0.0f, 4.0f, 4.0f}},
+                                .heard = {3, 8}};
   return sight;
 }
 
-TEST(InterestOverlay, ColoursWhatTouchesTheViewOfTheChosenBatAndNothingElse) {
-  using physics::BodyKind;
-  const double half = 0.5 * std::sqrt(0.05 * 200.0);  // the square that is a twentieth of the field
-  const MatchSight sight = sight_with({{7, BodyKind::bat, game::Team::left, {10.0, 5.0}, {0.0, 0.0}, {0.05, 0.15}},
-                                       {3, BodyKind::bat, game::Team::right, {2.0, 2.0}, {0.0, 0.0}, {0.05, 0.15}},
-                                       {8, BodyKind::puck, game::Team::none, {10.0 + half + 0.039, 5.0}, {0.0, 0.0}, {0.04, 0.04}},
-                                       {9, BodyKind::puck, game::Team::none, {10.0 + half + 0.041, 5.0}, {0.0, 0.0}, {0.04, 0.04}}});
-  const Overlay overlay = interest_overlay(sight, {.cell_size = 0.0, .view_fraction = 0.05, .chosen = 1});  // the second by id
-  ASSERT_EQ(overlay.discs.size(), 1u);
-  EXPECT_DOUBLE_EQ(overlay.discs[0].x, 10.0 + half + 0.039);
+TEST(InterestOverlay, ShowsWhatWasDecidedEvenWhereGeometryWouldSayOtherwise) {
+  const Overlay overlay = interest_overlay(decided_sight(), {});
+  EXPECT_EQ(overlay.cell_size, 0.5);
   ASSERT_EQ(overlay.rectangles.size(), 2u);
-  EXPECT_DOUBLE_EQ(overlay.rectangles.back().low_x, 10.0 - half);
+  EXPECT_EQ(overlay.rectangles.back().low_x, 8.0);
   EXPECT_GT(overlay.rectangles.back().fill.alpha, 0.0f);
-  EXPECT_EQ(chosen_bat(sight, {.chosen = 3})->id, 7u);
+  EXPECT_EQ(overlay.rectangles.front().fill.alpha, 0.0f) << "regions of others hide nothing";
+  const std::ptrdiff_t on_unheard = std::ranges::count(overlay.discs, 10.5, &OverlayDisc::x);
+  EXPECT_EQ(on_unheard, 0) << "puck 9 lies in the region, but its player was not told of it";
+  EXPECT_EQ(std::ranges::count(overlay.discs, 11.0, &OverlayDisc::x), 1);
+  EXPECT_EQ(std::ranges::count(overlay.discs, 2.0, &OverlayDisc::x), 2) << "bat 3 is heard of and hears";
 }
 
-TEST(InterestOverlay, IsEmptyUnlessAsked) {
-  const Overlay overlay = interest_overlay(sight_with({{0, physics::BodyKind::bat, game::Team::left, {1.0, 1.0}, {0.0, 0.0}, {0.1, 0.1}}}), {});
-  EXPECT_TRUE(overlay.rectangles.empty() && overlay.discs.empty() && overlay.lines.empty());
-  EXPECT_EQ(chosen_bat(sight_with({}), {}), nullptr);
+TEST(InterestOverlay, IsEmptyUnlessSomethingWasToldAndItIsWanted) {
+  MatchSight sight = decided_sight();
+  for (const bool is_told : {true, false}) {
+    const Overlay overlay = interest_overlay(sight, {.is_shown = !is_told});
+    EXPECT_TRUE(overlay.rectangles.empty() && overlay.discs.empty() && overlay.lines.empty() && overlay.cell_size == 0.0);
+    sight.interest.reset();
+  }
+}
+
+TEST(InterestOverlay, AsksOfBatsInTurnOrOfWhatWasPicked) {
+  const MatchSight sight = decided_sight();
+  EXPECT_EQ(asked_thing(sight, {})->id, 3u);
+  EXPECT_EQ(asked_thing(sight, {.chosen = 1})->id, 7u);
+  EXPECT_EQ(asked_thing(sight, {.chosen = 2})->id, 3u);
+  EXPECT_EQ(asked_thing(sight, {.picked = 9})->id, 9u);
+  EXPECT_EQ(asked_thing(sight, {.picked = 99})->id, 3u) << "what is gone is not asked of";
+  EXPECT_EQ(asked_thing(MatchSight{}, {}), nullptr);
+  EXPECT_EQ(thing_at(sight, {10.56, 5.0}, 0.1), 9u);
+  EXPECT_EQ(thing_at(sight, {15.0, 5.0}, 0.1), std::nullopt);
 }
 
 }  // namespace

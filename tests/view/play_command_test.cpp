@@ -17,14 +17,18 @@ namespace rink::view {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 bool can_draw() {
-  try {
-    const OffscreenContext context;
-    return true;
-  } catch (const GraphicsError&) {
-    return false;
-  }
+  static const bool can = [] {
+    try {
+      const OffscreenContext context;
+      return true;
+    } catch (const GraphicsError&) {
+      return false;
+    }
+  }();
+  return can;
 }
 
 class PlayCommand : public ::testing::Test {
@@ -63,19 +67,40 @@ TEST_F(PlayCommand, TakesTheSamePicturesForTheSameScript) {
 
 TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
   for (const std::string downs : {"", "0.6 tap down\n", "0.6 tap down\n0.7 tap down\n"})
-    EXPECT_EQ(play("", "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 tap escape\n5.2 tap down\n5.3 tap down\n5.5 tap enter\n6 picture a.png\n"), 0) << said_;
+    EXPECT_EQ(play("", "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 tap escape\n5.2 tap down\n5.3 tap down\n5.5 tap enter\n6 end\n"), 0) << said_;
 }
 
 TEST_F(PlayCommand, SaysWhatIsWrongWithTheSettings) {
   std::filesystem::create_directories(file("rink"));
   std::ofstream(file("rink/play.toml")) << "[keys.left]\nup = \"hyper\"\n";
-  ASSERT_EQ(play("", "0.2 picture trouble.png\n"), 0) << said_;
+  ASSERT_EQ(play("", "0.2 end\n"), 0) << said_;
   EXPECT_THAT(said_, HasSubstr("play.toml:2: there is no key 'hyper'"));
+}
+
+TEST_F(PlayCommand, GoesOnWhereNothingCanBeKept) {
+  // Nobody, root neither, can make a folder below a file.
+  std::ofstream(file("home")) << "no folder\n";
+  const std::string nowhere = " --settings home/play.toml --records home/matches";
+  ASSERT_EQ(play("--bot expert" + nowhere, "3.5 down w\n4 tap m\n5 end\n"), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("cannot write the settings to 'home/play.toml'"));
+  EXPECT_THAT(said_, HasSubstr("home/matches"));
+  ASSERT_EQ(play("--host " + std::to_string(20'000 + getpid() % 20'000) + nowhere, "0.5 picture hosted.png\n"), 0) << said_;
+  EXPECT_THAT(said_, HasSubstr("home/matches"));
+  EXPECT_THAT(said_, Not(HasSubstr("cannot host")));
+}
+
+TEST_F(PlayCommand, KeepsTheRecordWhenItIsInterrupted) {
+  std::ofstream(file("script")) << "4 picture playing.png\n1000000 end\n";
+  const std::string command = "cd " + folder_.string() + " && { " + RINK_BINARY_DIR + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
+                              "for i in $(seq 200); do [ -e playing.png ] && break; sleep 0.05; done; kill -INT $!; wait $!";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
 }
 
 TEST_F(PlayCommand, SavesAKeyThatWasBoundAnew) {
   // Settings are the sixth entry; the first button is the left player's left key.
-  ASSERT_EQ(play("", "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap enter\n0.9 tap space\n1.1 tap j\n1.3 picture bound.png\n1.4 end\n"), 0) << said_;
+  ASSERT_EQ(play("", "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap enter\n0.9 tap space\n1.1 tap j\n1.4 end\n"), 0) << said_;
   std::ostringstream words;
   words << std::ifstream(file("rink/play.toml")).rdbuf();
   EXPECT_THAT(words.str(), HasSubstr("[keys.left]\nleft = \"j\"\n"));

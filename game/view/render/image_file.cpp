@@ -57,4 +57,11 @@ Difference difference(const Image& a, const Image& b) {
   return {sum / static_cast<double>(a.pixels.size()), static_cast<double>(far) / static_cast<double>(count)};
 }
 
+Image difference_image(const Image& a, const Image& b) {
+  Image image{a.width, a.height, a.channels, std::vector<std::uint8_t>(a.pixels.size(), 255)};
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels) return image;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(std::min(255, 4 * std::abs(int{a.pixels[i]} - int{b.pixels[i]})));
+  return image;
+}
+
 }  // namespace rink::view

@@ -21,5 +21,7 @@ struct Difference {
 };
 /// The worst possible if sizes differ.
 Difference difference(const Image& a, const Image& b);
+/// How far each pixel and channel is off, four times brighter; white where one image has no pixel.
+Image difference_image(const Image& a, const Image& b);
 
 }  // namespace rink::view

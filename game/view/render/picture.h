@@ -55,6 +55,7 @@ struct Picture {
   std::vector<Piece> pieces;
   float left_glow = 0.0f, right_glow = 0.0f;  ///< 0 to 1: the light that a goal throws on that end of the table
   float dimming = 0.0f;                       ///< 0 to 1: how far everything but the texts is darkened
+  bool is_split = false;                      ///< another picture stands beside it, in the same window
   Overlay overlay;
   std::vector<Text> texts;
 };

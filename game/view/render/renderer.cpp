@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "game/view/render/marks.h"
 #include "game/view/render/shaders.h"
@@ -14,6 +15,10 @@ namespace rink::view {
 namespace {
 
 constexpr int sample_count = 4;
+/// Rows that are smoothed in one frame: with all else it stays below a sixtieth of a second in software.
+constexpr int band_rows = 24;
+/// At first a stage is drawn in so many times fewer pixels each way.
+constexpr int rough_pixels = 2;
 constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4}, point_row[] = {3, 3, 3};
 /// From here on pieces throw no shadow: in a crowd each is a few pixels.
 constexpr std::size_t shadowed_max = 400;
@@ -46,14 +51,13 @@ Eigen::Vector4f covered(const Piece& piece, const Sight& sight, bool is_image, c
   return {low.x(), low.y(), high.x(), high.y()};
 }
 
-/// Lets nothing be drawn outside the window's rectangle about a box: another score is a small part of the stage.
-void confine(const Eigen::AlignedBox3f& box, const Sight& sight, int width, int height) {
+/// The pixels about what is seen of a box, within the window.
+Eigen::AlignedBox2i seen_pixels(const Eigen::AlignedBox3f& box, const Sight& sight, int width, int height) {
   Eigen::AlignedBox2f window;
   for (int corner = 0; corner < 8; ++corner) window.extend(sight.project(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner))));
   const Eigen::Array2f pixels(static_cast<float>(width), static_cast<float>(height));
-  const Eigen::Array2i low = ((window.min().array() * 0.5f + 0.5f) * pixels).floor().cast<int>() - 2, high = ((window.max().array() * 0.5f + 0.5f) * pixels).ceil().cast<int>() + 2;
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(low.x(), low.y(), std::max(0, high.x() - low.x()), std::max(0, high.y() - low.y()));
+  const Eigen::Array2i most(width, height), low = ((window.min().array() * 0.5f + 0.5f) * pixels).floor().cast<int>() - 2, high = ((window.max().array() * 0.5f + 0.5f) * pixels).ceil().cast<int>() + 2;
+  return {low.max(0).min(most).matrix(), high.max(0).min(most).matrix()};
 }
 
 void add_piece(const Piece& piece, const Sight& sight, bool is_image, const Canvas& canvas, std::vector<float>& rows) {
@@ -86,7 +90,6 @@ Renderer::Renderer()
       point_program_("points", "", point_vertex, point_fragment),
       flat_program_("plain table", light_source, flat_vertex, flat_fragment),
       overlay_program_("overlay", "", overlay_vertex, overlay_fragment),
-      mesh_(stage_row, false),
       marks_(mark_row, true),
       pieces_(piece_row, true),
       plan_(plan_row, true),
@@ -106,19 +109,22 @@ void Renderer::prepare(const Program& program, const Table& table, const Sight& 
   program.set("origin", Eigen::Vector2f(static_cast<float>(canvas.x), static_cast<float>(canvas.y)));
   program.set("stage_depth", 0);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, kept_.depth());
+  glBindTexture(GL_TEXTURE_2D, depth_);
 }
 
 void Renderer::draw(const Picture& picture, const Canvas& canvas) {
+  ++frame_;
   const Sight sight(picture.camera, static_cast<float>(canvas.width) / static_cast<float>(canvas.height));
   const Stage wanted{picture.table, picture.camera.is_plan ? Scoreboard{.is_there = false} : picture.board, picture.camera, canvas.width, canvas.height};
-  const bool is_moving = picture.camera.is_plan && wanted != last_ && wanted != stage_;  // a camera that moves needs no stage that is kept
+  const bool is_kept = std::ranges::any_of(kept_, [&](const Kept& each) { return each.stage == wanted; });
+  is_moving_ = picture.camera.is_plan && wanted != last_ && !is_kept;  // a camera that moves needs no stage that is kept
   last_ = wanted;
-  if (is_moving) {
+  if (is_moving_) {
     draw_plain(picture, sight, canvas);
   } else {
-    if (stage_ != wanted) set_stage(wanted, sight);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.framebuffer());
+    const Target& stage = kept(wanted, sight).target;
+    depth_ = stage.depth();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, stage.framebuffer());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer);
     glDisable(GL_SCISSOR_TEST);
     glBlitFramebuffer(0, 0, canvas.width, canvas.height, canvas.x, canvas.y, canvas.x + canvas.width, canvas.y + canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -138,28 +144,72 @@ void Renderer::draw(const Picture& picture, const Canvas& canvas) {
   glBindVertexArray(0);
 }
 
-/// The depth, by which marks and pieces are hidden, from a pass without samples; the colour from one with them.
-void Renderer::set_stage(const Stage& stage, const Sight& sight) {
-  if (kept_.width() != stage.width || kept_.height() != stage.height) {
-    kept_ = Target(stage.width, stage.height, 0);
-    samples_ = Target(stage.width, stage.height, sample_count);
-  }
-  if (!stage_ || stage_->table != stage.table || stage_->board != stage.board || stage_->camera.is_plan != stage.camera.is_plan)
-    mesh_.fill(stage.camera.is_plan ? plan_mesh(stage.table) : stage_mesh(stage.table, stage.board));
-  const bool is_score_alone = stage_ && Stage{stage_->table, stage.board, stage_->camera, stage_->width, stage_->height} == stage && stage_->board.is_left_first == stage.board.is_left_first;
-  if (is_score_alone) confine(board_box(stage.table, stage.board), sight, stage.width, stage.height);
-  draw_stage(stage, sight, kept_.framebuffer());
-  stage_ = stage;
-  draw_stage(stage, sight, samples_.framebuffer());
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.framebuffer());
-  glBlitFramebuffer(0, 0, stage.width, stage.height, 0, 0, stage.width, stage.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glDisable(GL_SCISSOR_TEST);
+bool Renderer::is_settled() const {
+  return !is_moving_ && std::ranges::none_of(kept_, [this](const Kept& each) { return each.last_used + 2 >= frame_ && each.stage && each.smooth_rows < each.stage->height; });
 }
 
-void Renderer::draw_stage(const Stage& stage, const Sight& sight, GLuint framebuffer) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, stage.width, stage.height);
+/// The stage as it is wanted, one band of rows smoother than before. One that shows another score is changed; else the one that was not used for longest makes room.
+Renderer::Kept& Renderer::kept(const Stage& wanted, const Sight& sight) {
+  const auto is_same_but_score = [&](const Kept& each) { return each.stage && Stage{each.stage->table, wanted.board, each.stage->camera, each.stage->width, each.stage->height} == wanted; };
+  auto found = std::ranges::find_if(kept_, [&](const Kept& each) { return each.stage == wanted; });
+  if (found == kept_.end()) found = std::ranges::find_if(kept_, is_same_but_score);
+  if (found == kept_.end()) found = std::ranges::min_element(kept_, {}, &Kept::last_used);
+  if (found->stage != wanted) set_stage(*found, wanted, sight);
+  else if (found->smooth_rows < wanted.height) {
+    const int rows = std::min(band_rows, wanted.height - found->smooth_rows);
+    smooth(*found, sight, {0, found->smooth_rows, wanted.width, rows});
+    found->smooth_rows += rows;
+  }
+  found->last_used = frame_;
+  return *found;
+}
+
+/// The depth, by which marks and pieces are hidden, and colours in a quarter of the pixels: a fifth of the time that the smooth stage takes. Another score is a small part of it, and smooth at once.
+void Renderer::set_stage(Kept& kept, const Stage& stage, const Sight& sight) {
+  if (kept.target.width() != stage.width || kept.target.height() != stage.height) {
+    kept.target = Target(stage.width, stage.height, 0);
+    kept.stage.reset();
+  }
+  const std::optional<Stage> was = std::exchange(kept.stage, stage);
+  if (!was) kept.mesh = FloatStream(stage_row, false);
+  if (!was || was->table != stage.table || was->board != stage.board || was->camera.is_plan != stage.camera.is_plan)
+    kept.mesh.fill(stage.camera.is_plan ? plan_mesh(stage.table) : stage_mesh(stage.table, stage.board));
+  const bool is_score_alone = was && Stage{was->table, stage.board, was->camera, was->width, was->height} == stage && was->board.is_left_first == stage.board.is_left_first;
+  const Eigen::AlignedBox2i board = seen_pixels(board_box(stage.table, stage.board), sight, stage.width, stage.height);
+  const Part part = is_score_alone ? Part{board.min().x(), board.min().y(), board.sizes().x(), board.sizes().y()} : Part{0, 0, stage.width, stage.height};
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_stage(kept, sight, kept.target, {0, 0, stage.width, stage.height}, part);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (is_score_alone) return smooth(kept, sight, part);
+  kept.smooth_rows = 0;
+  const int width = (stage.width + rough_pixels - 1) / rough_pixels, height = (stage.height + rough_pixels - 1) / rough_pixels;
+  if (rough_.width() != width || rough_.height() != height) rough_ = Target(width, height, 0);
+  draw_stage(kept, sight, rough_, {0, 0, width, height}, {0, 0, width, height});
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, rough_.framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept.target.framebuffer());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, stage.width, stage.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
+/// Draws `part` with samples, a band at a time.
+void Renderer::smooth(Kept& kept, const Sight& sight, const Part& part) {
+  if (samples_.width() < part.x + part.width) samples_ = Target(kept.target.width(), band_rows, sample_count);
+  for (int y = part.y; y < part.y + part.height; y += band_rows) {
+    const int rows = std::min(band_rows, part.y + part.height - y), right = part.x + part.width;
+    draw_stage(kept, sight, samples_, {0, -y, kept.target.width(), kept.target.height()}, {part.x, 0, part.width, rows});
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept.target.framebuffer());
+    glBlitFramebuffer(part.x, 0, right, rows, part.x, y, right, y + rows, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+}
+
+/// The stage fills `whole`, which may be larger than `target`, of whose pixels only `part` changes.
+void Renderer::draw_stage(const Kept& kept, const Sight& sight, const Target& target, const Part& whole, const Part& part) {
+  const Stage& stage = *kept.stage;
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
+  glViewport(whole.x, whole.y, whole.width, whole.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.width, part.height);
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
@@ -172,9 +222,10 @@ void Renderer::draw_stage(const Stage& stage, const Sight& sight, GLuint framebu
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, digits_.name());
   glActiveTexture(GL_TEXTURE0);
-  mesh_.bind();
-  glDrawArrays(GL_TRIANGLES, 0, mesh_.count());
+  kept.mesh.bind();
+  glDrawArrays(GL_TRIANGLES, 0, kept.mesh.count());
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::draw_rows(FloatStream& stream) {

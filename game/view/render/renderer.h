@@ -1,6 +1,8 @@
 // Draws a Picture with OpenGL 3.3.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "game/view/render/gl_objects.h"
@@ -15,8 +17,9 @@ struct Canvas {
   friend bool operator==(const Canvas&, const Canvas&) = default;
 };
 
-/// What stands still is drawn once, with four samples a pixel and all the light, and kept while the camera, the score and the canvas stay as they are; a frame then copies it and
-/// draws what moves. In software that is the difference between 15 and 200 frames per second (docs/play.md). The context that was current when it was made must be current always.
+/// What stands still is drawn once, roughly, and kept while the camera, the score and the canvas stay as they are; a frame then copies it and draws what moves. In software
+/// that is the difference between 15 and 200 frames per second (docs/play.md). Four samples a pixel smooth it over the following frames, a band of rows in each. The last few stages are kept, so
+/// that views beside each other, and a camera that comes back, cost nothing anew. The context that was current when it was made must be current always.
 class Renderer {
  public:
   /// Throws GraphicsError.
@@ -24,9 +27,11 @@ class Renderer {
 
   /// All but the dimming and the texts.
   void draw(const Picture& picture, const Canvas& canvas);
+  /// False while the next frames still smooth what the last ones showed.
+  bool is_settled() const;
 
  private:
-  /// What the kept stage shows.
+  /// What a kept stage shows.
   struct Stage {
     Table table;
     Scoreboard board;
@@ -35,8 +40,22 @@ class Renderer {
     friend bool operator==(const Stage&, const Stage&) = default;
   };
 
-  void set_stage(const Stage& stage, const Sight& sight);
-  void draw_stage(const Stage& stage, const Sight& sight, GLuint framebuffer);
+  struct Kept {
+    FloatStream mesh;
+    Target target;
+    std::optional<Stage> stage;
+    int smooth_rows = 0;           ///< from the bottom up
+    std::uint64_t last_used = 0;   ///< frame
+  };
+  /// A rectangle of the stage's pixels.
+  struct Part {
+    int x = 0, y = 0, width = 0, height = 0;
+  };
+
+  Kept& kept(const Stage& wanted, const Sight& sight);
+  void set_stage(Kept& kept, const Stage& stage, const Sight& sight);
+  void smooth(Kept& kept, const Sight& sight, const Part& part);
+  void draw_stage(const Kept& kept, const Sight& sight, const Target& target, const Part& whole, const Part& part);
   /// `program` in use, with all that shaders share.
   void prepare(const Program& program, const Table& table, const Sight& sight, const Canvas& canvas) const;
   void draw_plain(const Picture& picture, const Sight& sight, const Canvas& canvas);
@@ -48,12 +67,15 @@ class Renderer {
   void draw_rows(FloatStream& stream);
 
   Program stage_program_, mark_program_, piece_program_, plan_program_, point_program_, flat_program_, overlay_program_;
-  FloatStream mesh_, marks_, pieces_, plan_, points_, plain_, overlay_;
+  FloatStream marks_, pieces_, plan_, points_, plain_, overlay_;
   GlName<destroy_texture> wood_, digits_;
-  Target samples_, kept_;
-  std::optional<Stage> stage_;
+  std::array<Kept, 4> kept_;
+  Target rough_, samples_;            ///< the latter of one band of rows
+  GLuint depth_ = 0;                  ///< of the stage that is drawn over
+  std::uint64_t frame_ = 0;
   std::optional<Table> plain_table_;  ///< of which plain_ is
   Stage last_;                        ///< of the last frame
+  bool is_moving_ = false;            ///< it shows a camera that moves
   std::vector<float> rows_;
   std::vector<const Piece*> order_;
 };
