@@ -56,7 +56,8 @@ Eigen::AlignedBox2i seen_pixels(const Eigen::AlignedBox3f& box, const Sight& sig
   Eigen::AlignedBox2f window;
   for (int corner = 0; corner < 8; ++corner) window.extend(sight.project(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner))));
   const Eigen::Array2f pixels(static_cast<float>(width), static_cast<float>(height));
-  const Eigen::Array2i most(width, height), low = ((window.min().array() * 0.5f + 0.5f) * pixels).floor().cast<int>() - 2, high = ((window.max().array() * 0.5f + 0.5f) * pixels).ceil().cast<int>() + 2;
+  const Eigen::Array2i most(width, height), low = ((window.min().array() * 0.5f + 0.5f) * pixels).floor().cast<int>() - 2;
+  const Eigen::Array2i high = ((window.max().array() * 0.5f + 0.5f) * pixels).ceil().cast<int>() + 2;
   return {low.max(0).min(most).matrix(), high.max(0).min(most).matrix()};
 }
 
