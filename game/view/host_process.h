@@ -1,4 +1,4 @@
-// A server of matches beside the window: rink-serve as a process of its own, which ends with its owner.
+// A server of matches beside the window: rink-serve as a process of its own, which ends with its owner, in whatever way that ends.
 #pragma once
 
 #include <sys/types.h>
@@ -15,6 +15,9 @@ class HostProcess {
   ~HostProcess();
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
+
+  /// What it has said since the last time. To be asked now and then: a pipe that nobody empties stops who fills it.
+  std::string take_words();
 
  private:
   pid_t process_ = -1;

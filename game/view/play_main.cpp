@@ -10,6 +10,7 @@
 #include <iostream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "game/control/match_records.h"
 #include "game/match/local_match.h"
@@ -94,7 +95,10 @@ class RecordedMatch final : public game::MatchSource {
 class HostedMatch final : public game::MatchSource {
  public:
   HostedMatch(const std::string& port, const std::string& records) : host_(port, records), match_("127.0.0.1:" + port, {.name = "host"}) {}
-  void advance(double now_s) override { match_.advance(now_s); }
+  void advance(double now_s) override {
+    match_.advance(now_s);
+    std::cerr << host_.take_words();
+  }
   const game::MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
   void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
@@ -134,6 +138,7 @@ class Process {
   explicit Process(const view::PlayOptions& options) : options_(options), settings_file_(options.settings_file.empty() ? view::settings_file() : options.settings_file) {
     view::ReadSettings read = view::read_settings(settings_file_);
     settings_ = read.settings;
+    is_misread_ = !read.troubles.empty();
     if (options.is_muted) settings_.is_muted = true;
     if (options.is_full_screen) settings_.is_full_screen = true;
     for (const std::string& trouble : read.troubles) troubles_ += (troubles_.empty() ? "" : "\n") + trouble;
@@ -151,7 +156,14 @@ class Process {
   /// What draws must be gone before its context is.
   class Opened {
    public:
-    Opened(Process& process, view::Window* window) : process_(process) { process.open(window); }
+    Opened(Process& process, view::Window* window) : process_(process) {
+      try {
+        process.open(window);
+      } catch (...) {
+        process.close();
+        throw;
+      }
+    }
     ~Opened() { process_.close(); }
     Opened(const Opened&) = delete;
     Opened& operator=(const Opened&) = delete;
@@ -167,6 +179,7 @@ class Process {
 
   view::PlayOptions options_;
   std::string settings_file_, troubles_;
+  bool is_misread_ = false;  ///< there is more in the settings' file than was understood
   view::Settings settings_;
   std::vector<view::ScriptStep> script_;
   std::size_t next_step_ = 0;
@@ -187,6 +200,8 @@ void Process::open(view::Window* window) {
     surroundings.sound = [this](const std::vector<view::Noise>& noises, const view::Settings& settings) { sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume); };
   }
   surroundings.save_settings = [this](const view::Settings& settings) {
+    if (std::exchange(is_misread_, false))
+      if (const auto place = view::set_settings_aside(settings_file_)) tell(*place);
     if (const auto trouble = view::write_settings(settings, settings_file_)) tell(*trouble);
   };
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
@@ -275,14 +290,14 @@ game::ExitStatus play(const view::PlayOptions& options) {
 
 int main(int count, char** values) {
   std::signal(SIGPIPE, SIG_IGN);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_interrupted = 1; });  // records are written, the server is told, a hosted one ended
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { is_interrupted = 1; });  // records are written, the server is told, a hosted one ended
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
   view::PlayOptions options;
   view::add_options(app, options);
   app.footer(std::string("Example: rink play --bot club\n"
                          "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V splits the screen for two, + and - zoom and F follows from above, M mutes,\n"
                          "F3 shows figures, F11 fills the screen.\n") +
-             game::exit_status_help);
+             "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match that ends wrongly is told of in the menu and on standard error.");
   try {
     app.parse(count, values);
     return static_cast<int>(play(options));

@@ -28,7 +28,7 @@ struct PlayOptions {
 inline void add_options(CLI::App& app, PlayOptions& options) {
   const auto two = app.add_flag("--two", options.is_two, "two players on this keyboard (W A S D and the arrows)");
   const auto bot = app.add_option("--bot", options.bot, "one player against a bot of this strength")->check(CLI::IsMember({"beginner", "club", "expert"}));
-  const auto host = app.add_option("--host", options.host, "host a match on PORT and play it")->type_name("PORT");
+  const auto host = app.add_option("--host", options.host, "host a match on PORT and play it")->type_name("PORT")->check(CLI::Range(1, 65535));
   const auto join = app.add_option("--join", options.join, "join the match at HOST:PORT")->type_name("HOST:PORT");
   const auto watch = app.add_option("--watch", options.watch, "watch the match or the crowd at HOST:PORT; of a crowd, I shows who hears of what, Tab or a click of which body")->type_name("HOST:PORT");
   const auto replay = app.add_option("--replay", options.replay, "watch a recorded match: space stops it, left and right seek, up and down change its speed")->type_name("FILE");
@@ -45,7 +45,7 @@ inline void add_options(CLI::App& app, PlayOptions& options) {
   app.add_option("--seed", options.seed, "of the bots")->capture_default_str();
   app.add_option("--script", options.script, "press keys and take pictures as FILE says: lines TIME down|up|tap KEY, TIME text WORDS, TIME picture FILE.png, TIME end")->type_name("FILE");
   const auto screenshot = app.add_option("--screenshot", options.screenshot, "write the picture at --at to FILE.png and end")->type_name("FILE");
-  app.add_option("--at", options.at_s, "seconds after the start")->needs(screenshot)->capture_default_str();
+  app.add_option("--at", options.at_s, "seconds after the start")->needs(screenshot)->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
   app.add_flag("--offscreen", options.is_offscreen, "draw without a window or a display, 60 frames to a second; needs --script or --screenshot");
 }
 

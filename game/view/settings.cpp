@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace rink::view {
@@ -15,6 +16,8 @@ namespace {
 
 constexpr const char* how_called = "' (keys are called: a, 7, up, left shift, space, f1, keypad 4, comma, ...)";
 constexpr std::array<const char*, 2> player_tables{"left", "right"};
+constexpr std::size_t troubles_most = 4;           ///< said at once; they are to fit on a small screen
+constexpr std::uintmax_t file_largest = 1u << 20;  ///< bytes
 
 class Reader {
  public:
@@ -23,10 +26,17 @@ class Reader {
   void read(const toml::table& root) {
     for (const auto& [key, node] : root) read_entry(key.str(), node);
     refuse_double_use();
+    for (const auto& [line, words] : troubles_) {
+      if (read_.troubles.size() == troubles_most) {
+        read_.troubles.push_back(file_ + ": and " + std::to_string(troubles_.size() - troubles_most) + " more like these");
+        break;
+      }
+      read_.troubles.push_back(file_ + ":" + std::to_string(line) + ": " + words);
+    }
   }
 
  private:
-  void trouble(const toml::node& node, const std::string& what) { read_.troubles.push_back(file_ + ":" + std::to_string(node.source().begin.line) + ": " + what); }
+  void trouble(const toml::node& node, const std::string& what) { troubles_.emplace(node.source().begin.line, what); }
 
   void read_entry(std::string_view key, const toml::node& node) {
     Settings& settings = read_.settings;
@@ -60,10 +70,12 @@ class Reader {
         continue;
       }
       KeyCode& place = keys[static_cast<std::size_t>(*key)];
+      const std::string stays = " for " + std::string(name.str()) + "; it stays '" + key_code_name(place).value_or("?") + how_called;
       const auto text = node.value_exact<std::string>();
       const auto code = text ? key_code_from_name(*text) : std::nullopt;
       if (code) place = *code;
-      else trouble(node, "there is no key '" + node.value<std::string>().value_or("?") + "' for " + std::string(name.str()) + "; it stays '" + key_code_name(place).value_or("?") + how_called);
+      else if (text) trouble(node, "there is no key '" + *text + "'" + stays);
+      else trouble(node, "expected the name of a key in quotes" + stays);
     }
   }
 
@@ -83,6 +95,7 @@ class Reader {
 
   std::string file_;
   ReadSettings& read_;
+  std::multimap<std::uint32_t, std::string> troubles_;  ///< by line
 };
 
 }  // namespace
@@ -124,21 +137,38 @@ std::string settings_text(const Settings& settings) {
 }
 
 ReadSettings read_settings(const std::string& file) {
-  std::ifstream stream(file);
-  if (file.empty() || !stream) return {};
+  std::error_code ignored;
+  if (file.empty() || !std::filesystem::exists(file, ignored)) return {};
+  ReadSettings read;
+  std::ifstream stream;
+  if (!std::filesystem::is_regular_file(file, ignored)) read.troubles = {file + ": not a file; all settings are as by default"};
+  else if (std::filesystem::file_size(file, ignored) > file_largest) read.troubles = {file + ": larger than 1 MiB; all settings are as by default"};
+  else if (stream.open(file); !stream) read.troubles = {file + ": cannot be read; all settings are as by default"};
+  if (!read.troubles.empty()) return read;
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_settings(text.str(), file);
 }
 
+std::optional<std::string> set_settings_aside(const std::string& file) {
+  std::error_code trouble;
+  std::filesystem::rename(file, file + ".old", trouble);
+  return trouble ? std::nullopt : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
+}
+
+/// By way of a second file: one who is interrupted here has the old settings or the new ones.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file) {
   if (file.empty()) return "the settings cannot be kept: neither XDG_CONFIG_HOME nor HOME is set";
-  std::error_code ignored;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), ignored);
-  std::ofstream stream(file);
+  std::error_code trouble;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), trouble);
+  const std::string fresh = file + ".new";
+  std::ofstream stream(fresh);
   stream << settings_text(settings);
-  if (!stream.flush()) return "cannot write the settings to '" + file + "'";
-  return std::nullopt;
+  stream.close();
+  if (stream) std::filesystem::rename(fresh, file, trouble);
+  if (stream && !trouble) return std::nullopt;
+  std::filesystem::remove(fresh, trouble);
+  return "cannot write the settings to '" + file + "'";
 }
 
 std::string settings_file() {

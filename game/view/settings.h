@@ -42,7 +42,7 @@ struct Bound {
 };
 std::optional<Bound> bound(const Settings& settings, KeyCode code);
 
-/// Settings and what was wrong with the file, one message a line: what could not be read is as by default.
+/// Settings and what was wrong with the file, in the order of its lines, no more than fits on a screen: what could not be read is as by default.
 struct ReadSettings {
   Settings settings;
   std::vector<std::string> troubles;
@@ -54,6 +54,8 @@ std::string settings_text(const Settings& settings);
 
 /// No file is no trouble.
 ReadSettings read_settings(const std::string& file);
+/// A file with troubles is not lost by what is written later: it is given another name. Which, or nothing if it could not be done.
+std::optional<std::string> set_settings_aside(const std::string& file);
 /// Makes the folder if need be. The trouble, or nothing.
 std::optional<std::string> write_settings(const Settings& settings, const std::string& file);
 

@@ -3,6 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "tests/temporary_folder.h"
+
 namespace rink::view {
 namespace {
 
@@ -10,6 +15,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Optional;
 
 TEST(Settings, ReadBackWhatTheyWrite) {
   Settings settings;
@@ -37,6 +43,33 @@ TEST(Settings, AnUnknownKeyNameIsSaidWithFileAndLineAndTheOthersCount) {
   EXPECT_TRUE(read.settings.is_muted);
   EXPECT_EQ(read.settings.keys[0][2], *key_code_from_name("w"));
   EXPECT_EQ(read.settings.keys[0][3], *key_code_from_name("x"));
+}
+
+TEST(Settings, TroublesComeInTheOrderOfTheirLinesAndNoMoreThanFitOnAScreen) {
+  const ReadSettings read = parse_settings("zoom = 1\n[keys.left]\nup = 7\nleft = \"hyper\"\n[keys.right]\nup = \"?\"\nforward = 1\nback = 1\n", "play.toml");
+  EXPECT_THAT(read.troubles, ElementsAre(HasSubstr("play.toml:1: there is no setting 'zoom'"), AllOf(HasSubstr("play.toml:3: expected the name of a key in quotes"), HasSubstr("stays 'w'")),
+                                         HasSubstr("play.toml:4: there is no key 'hyper'"), HasSubstr("play.toml:6: there is no key '?'"), HasSubstr("and 2 more")));
+}
+
+TEST(Settings, AFileWithTroublesIsKeptWhenNewSettingsAreWritten) {
+  const test::TemporaryFolder folder("settings");
+  const std::string file = folder / "play.toml";
+  std::ofstream(file) << "mute = true\nmute = true\n";
+  EXPECT_THAT(read_settings(file).troubles, ElementsAre(HasSubstr("play.toml:2")));
+  ASSERT_THAT(set_settings_aside(file), Optional(HasSubstr("play.toml.old")));
+  EXPECT_FALSE(write_settings(Settings(), file));
+  EXPECT_EQ(test::text_of(file + ".old"), "mute = true\nmute = true\n");
+  EXPECT_THAT(read_settings(file).troubles, IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(file + ".new"));
+}
+
+TEST(Settings, WhatIsNoFileOrTooLargeIsNotRead) {
+  const test::TemporaryFolder folder("settings");
+  EXPECT_THAT(read_settings(folder.path()).troubles, ElementsAre(HasSubstr("not a file")));
+  EXPECT_THAT(read_settings("/dev/zero").troubles, ElementsAre(HasSubstr("not a file")));
+  std::ofstream(folder / "large") << std::string(3 << 20, '#');
+  EXPECT_THAT(read_settings(folder / "large").troubles, ElementsAre(HasSubstr("larger than")));
+  EXPECT_THAT(read_settings(folder / "none").troubles, IsEmpty());
 }
 
 TEST(Settings, OneKeyCannotMeanTwoThings) {
