@@ -80,11 +80,10 @@ class RecordedMatch final : public game::MatchSource {
 
  private:
   void keep() {
-    for (const game::KeyLog& log : match_.take_finished()) try {
-        records_.write(log);
-      } catch (const std::exception& error) {
-        tell(error.what());
-      }
+    for (const game::KeyLog& log : match_.take_finished()) {
+      if (const auto trouble = records_.keep(log)) tell(*trouble);
+      match_.set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
+    }
   }
   game::LocalMatch match_;
   game::MatchRecords records_;
@@ -93,8 +92,12 @@ class RecordedMatch final : public game::MatchSource {
 /// A match that is hosted here and played here: the server is there before the connection to it, and ends after it.
 class HostedMatch final : public game::MatchSource {
  public:
-  HostedMatch(const std::string& port, const std::string& records) : host_(port, records), match_("127.0.0.1:" + port, {.name = "host"}) {}
-  void advance(double now_s) override { match_.advance(now_s); }
+  HostedMatch(const std::string& port, const std::string& records) : records_(records), host_(port, records), match_("127.0.0.1:" + port, {.name = "host"}) {}
+  void advance(double now_s) override {
+    match_.advance(now_s);
+    const game::MatchSight& seen = match_.sight();
+    if (seen.phase != game::MatchPhase::lost && !seen.notice.empty() && !has_told_) tell(seen.notice + " in " + records_), has_told_ = true;
+  }
   const game::MatchSight& sight() const override { return match_.sight(); }
   std::uint32_t hand_count() const override { return match_.hand_count(); }
   void press(std::uint32_t hand, game::Key key, bool is_down) override { match_.press(hand, key, is_down); }
@@ -102,8 +105,10 @@ class HostedMatch final : public game::MatchSource {
   void rematch() override { match_.rematch(); }
 
  private:
+  std::string records_;
   view::HostProcess host_;
   game::JoinedMatch match_;
+  bool has_told_ = false;  ///< that the server could not record: what it says itself is read by nobody
 };
 
 std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
