@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-/// Which game was played and what was done in it. Matches are recorded in a packed form (key_log_packed.h), all else as text: a line `rink-keys 1`, one line each for scene, seed and (if known) bats, fingerprint, until and hash, the
+/// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
 /// scene's own text behind bars, then one line per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for
 /// down and up, the key. The last line, `end`, has the number of events and a checksum of all lines above.
 struct KeyLog {

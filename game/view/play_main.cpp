@@ -50,14 +50,11 @@ std::string records_folder(const view::PlayOptions& options) {
 
 /// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for it is the match that matters.
 std::string host_records(const std::string& folder) {
-  try {
-    game::MatchRecords(folder).require_writable();
-    return folder;
-  } catch (const std::exception& error) {
-    const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
-    tell(std::string(error.what()) + "; they are kept in " + other);
-    return other;
-  }
+  const auto trouble = game::MatchRecords(folder).test();
+  if (!trouble) return folder;
+  const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
+  tell(*trouble + "; they are kept in " + other);
+  return other;
 }
 
 /// A local match whose records are kept, also of one that is given up. A record that cannot be written is told of; the match goes on.
