@@ -108,7 +108,7 @@ void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attri
   }
   assert(values.size() <= values_max);
   // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
-  constexpr std::size_t header_size_max = StampMessage::size + 1 + 5 + 5, rest_max = 5 + 1;
+  constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
   if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
     if (!outgoing_.has_room(header_size_max + rest_max + values.size())) outgoing_.close_frame();
     begin_updates(object_class, attributes, stamp);

@@ -43,6 +43,13 @@ class Writer {
     bytes_.insert(bytes_.end(), bytes, put_varint(bytes, value));
     return true;
   }
+  /// The `size` lowest bytes of `value`, at most 8; the others are 0.
+  bool part(std::uint64_t& value, std::size_t size) {
+    assert(size <= sizeof value && (size == sizeof value || value >> (8 * size) == 0));
+    const auto* at = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), at, at + size);
+    return true;
+  }
   template <class Number>
   bool range(Number& value, [[maybe_unused]] std::uint64_t max) {
     assert(value <= max);
@@ -105,6 +112,13 @@ class Reader {
     }
     return false;
   }
+  bool part(std::uint64_t& value, std::size_t size) {
+    if (size > sizeof value || bytes_.size() < size) return false;
+    value = 0;
+    for (std::size_t byte = 0; byte < size; ++byte) value |= static_cast<std::uint64_t>(bytes_[byte]) << (8 * byte);
+    bytes_ = bytes_.subspan(size);
+    return true;
+  }
   template <class Number>
   bool range(Number& value, std::uint64_t max) {
     return number(value) && value <= max;
@@ -146,6 +160,10 @@ class Measurer {
   template <class Number>
   bool varint(Number& value) {
     size_ += varint_size(value);
+    return true;
+  }
+  bool part(std::uint64_t&, std::size_t size) {
+    size_ += size;
     return true;
   }
   template <class Number>

@@ -9,11 +9,15 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <streambuf>
+
+#include "game/control/key_log_packed.h"
 
 namespace rink::game {
 namespace {
 
 constexpr const char* version_line = "rink-keys 1";
+constexpr std::size_t version_line_max = 256, line_max = 1u << 16, size_max = 1u << 30;  // bytes
 constexpr double time_max = 1e9;  // s, as in scenes (docs/scenes.md, "Limits")
 constexpr std::array<std::string_view, 4> input_names{"down", "up", "enter", "leave"};
 
@@ -63,12 +67,16 @@ class LineChecksum {
   std::uint64_t sum_ = 0xcbf29ce484222325u;
 };
 
+std::string first_line_expected() { return std::string("the line \"") + version_line + "\" or \"" + packed_version_line + "\", with which key logs of this version begin"; }
+
 class Reader {
  public:
   Reader(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
 
   KeyLog read() {
-    if (!next_line() || line_ != version_line) refuse(line_, std::string("the line \"") + version_line + "\"");
+    next_line();
+    if (line_ == packed_version_line) return read_packed_key_log(stream_, name_);
+    if (line_ != version_line) refuse(line_, first_line_expected());
     while (next_line()) {
       const std::vector<std::string> words = words_of(line_);
       if (words.empty() || words.front().front() == '#') continue;
@@ -76,7 +84,6 @@ class Reader {
       if (words.front() == "end") read_end(words);
       else if (!log_.events.empty() || !read_header(words)) read_event(words);
     }
-    if (stream_.bad()) throw SceneError(name_ + ": cannot be read to its end");
     return std::move(log_);
   }
 
@@ -84,12 +91,30 @@ class Reader {
   bool next_line() {
     ++line_number_;
     above_ = checksum_.value();
-    if (std::getline(stream_, line_)) {
-      checksum_.add(line_);
-      return true;
-    }
     line_.clear();
-    return false;
+    const bool is_there = take_line();
+    if (is_there) checksum_.add(line_);
+    return is_there;
+  }
+  /// As std::getline, but no longer than a line may be: a device gives bytes without end.
+  bool take_line() {
+    using Traits = std::istream::traits_type;
+    std::streambuf& bytes = *stream_.rdbuf();
+    const std::size_t longest = line_number_ == 1 ? version_line_max : line_max;
+    for (auto next = next_byte(bytes); !Traits::eq_int_type(next, Traits::eof()); next = next_byte(bytes)) {
+      if (++size_ > size_max) refuse(line_, "the end of the log within " + std::to_string(size_max) + " bytes");
+      if (next == '\n') return true;
+      line_ += Traits::to_char_type(next);
+      if (line_.size() > longest) refuse(line_, line_number_ == 1 ? first_line_expected() : "a line of at most " + std::to_string(line_max) + " bytes");
+    }
+    return !line_.empty();
+  }
+  std::istream::traits_type::int_type next_byte(std::streambuf& bytes) const {
+    try {
+      return bytes.sbumpc();
+    } catch (const std::ios_base::failure&) {
+      throw SceneError(name_ + ": cannot be read to its end");
+    }
   }
 
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
@@ -167,7 +192,7 @@ class Reader {
   std::istream& stream_;
   std::string name_;
   std::string line_;
-  std::uint64_t line_number_ = 0;
+  std::uint64_t line_number_ = 0, size_ = 0;
   LineChecksum checksum_;
   std::uint64_t above_ = 0;  ///< the checksum of all lines above this one
   KeyLog log_;

@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-/// Which game was played and what was done in it. Text: a line `rink-keys 1`, one line each for scene, seed and (if known) bats, fingerprint, until and hash, the
+/// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
 /// scene's own text behind bars, then one line per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for
 /// down and up, the key. The last line, `end`, has the number of events and a checksum of all lines above.
 struct KeyLog {
@@ -37,7 +37,7 @@ void write_key_log(std::ostream& stream, const KeyLog& log);
 /// Throws SceneError if the file cannot be written.
 void write_key_log(const std::filesystem::path& file, const KeyLog& log);
 
-/// Throws SceneError naming file, line, what stands there and what was expected.
+/// Reads text and packed logs. Throws SceneError naming file, line, what stands there and what was expected.
 KeyLog read_key_log(const std::filesystem::path& file);
 /// As above; `name` is named in errors.
 KeyLog read_key_log(std::istream& stream, const std::string& name);

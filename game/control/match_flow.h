@@ -30,6 +30,7 @@ struct MatchState {
   double clock_real_s = 0.0, clock_simulated_s = 0.0;  ///< it was this simulated instant at this real time; while playing, both go on from there [s]
   std::array<bool, 2> wants_rematch{};  ///< by player
   std::optional<Team> winner;           ///< once it is over
+  bool is_unrecorded = false;           ///< what was played last could not be recorded; the host's to say, no rule depends on it
   friend bool operator==(const MatchState&, const MatchState&) = default;
 };
 

@@ -2,7 +2,9 @@
 #include "game/control/match_records.h"
 
 #include <fstream>
-#include <string>
+#include <utility>
+
+#include "game/control/key_log_packed.h"
 
 namespace rink::game {
 
@@ -21,8 +23,28 @@ std::filesystem::path MatchRecords::write(const KeyLog& log) {
   require_writable();
   const auto file = [this] { return folder_ / ("match-" + std::to_string(next_) + ".keys"); };
   while (std::filesystem::exists(file(), error)) ++next_;
-  write_key_log(file(), log);
+  write_packed_key_log(file(), log);
   return file();
+}
+
+std::optional<std::string> MatchRecords::keep(const KeyLog& log) {
+  return first_trouble([&] { write(log); });
+}
+
+std::optional<std::string> MatchRecords::test() {
+  return first_trouble([this] { require_writable(); });
+}
+
+template <class Attempt>
+std::optional<std::string> MatchRecords::first_trouble(Attempt attempt) {
+  const bool was_failing = std::exchange(is_failing_, false);
+  try {
+    attempt();
+  } catch (const SceneError& error) {
+    is_failing_ = true;
+    if (!was_failing) return error.what();
+  }
+  return std::nullopt;
 }
 
 }  // namespace rink::game

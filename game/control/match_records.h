@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "game/control/key_log.h"
 
@@ -13,15 +15,23 @@ class MatchRecords {
   /// The folder is made when it is needed.
   explicit MatchRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Throws SceneError unless records can be written there: to be asked before a match is played.
-  void require_writable() const;
-
   /// Where it stands now. Throws SceneError if it cannot be written.
   std::filesystem::path write(const KeyLog& log);
+  /// The same for a match that goes on all the same: what went wrong, when it begins to.
+  std::optional<std::string> keep(const KeyLog& log);
+  /// Whether it would be kept: likewise.
+  std::optional<std::string> test();
+  /// Whether the last record could not be kept.
+  bool is_failing() const { return is_failing_; }
 
  private:
+  void require_writable() const;
+  template <class Attempt>
+  std::optional<std::string> first_trouble(Attempt attempt);
+
   std::filesystem::path folder_;
   std::uint32_t next_ = 1;
+  bool is_failing_ = false;
 };
 
 }  // namespace rink::game

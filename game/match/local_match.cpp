@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "game/control/replay.h"
+#include "game/model/time_grid.h"
 
 namespace rink::game {
 
@@ -26,6 +27,7 @@ void LocalMatch::begin(double now_s) {
   finish();
   is_finished_ = false;
   match_number_ = flow_.state().number;
+  played_s_ = 0.0;
   constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
   playing_ = std::make_unique<Playing>(scene_, settings_.players, settings_.seed + match_number_ - 1, forever);
 }
@@ -48,7 +50,8 @@ void LocalMatch::finish() {
 }
 
 void LocalMatch::play(double duration_s) {
-  playing_->advance(playing_->game().now() + duration_s);
+  played_s_ += duration_s;
+  playing_->advance(std::max(playing_->game().now(), last_on(key_grid, played_s_)));
   if (!playing_->game().is_over()) return;
   const Score& score = playing_->game().score();
   flow_.win(score.left > score.right ? Team::left : Team::right, now_s_);

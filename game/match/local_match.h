@@ -38,6 +38,8 @@ class LocalMatch final : public MatchSource {
   void pause(bool is_wanted) override;
   void rematch() override;
 
+  /// One line for the player, shown until another is set.
+  void set_notice(std::string notice) { sight_.notice = std::move(notice); }
   /// The match ends here, so that there is a record of it.
   void finish();
   /// Records of the matches that came to their end, or were given up, since they were last taken.
@@ -65,6 +67,7 @@ class LocalMatch final : public MatchSource {
   bool is_finished_ = true;  ///< the present match is recorded
   std::uint32_t match_number_ = 0;
   double now_s_ = -1.0;
+  double played_s_ = 0.0;  ///< simulated time of the present match; the game stops at multiples of key_grid, where hands press their keys
   MatchSight sight_;
   NoiseDetector noises_;
   GoalWatch goals_;

@@ -26,7 +26,7 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
   if (!settings.plays_match) return;
   for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.publish_interaction_class(interaction);
   ambassador_.subscribe_interaction_class(model_.pong);
-  ambassador_.subscribe_object_class_attributes(model_.match, {model_.match_state, model_.match_scene});
+  ambassador_.subscribe_object_class_attributes(model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
 }
 
 void Client::join_refused(rti::Refusal refusal, std::string_view why) {
@@ -149,6 +149,7 @@ void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClass
 }
 
 void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
+  if (before_next_stamp && stamp != mirror_.newest()) before_next_stamp();
   mirror_.reflect(object, attributes, values, stamp);
   if (is_watched_) heard_.updates.push_back({object, static_cast<std::uint32_t>(values.size())});
   if (state_ == State::joining) subscribe_once_seated();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,6 +70,9 @@ class Client : public rti::FederateAmbassador {
   void follow_bat() { follow_bat(mirror_.newest().time); }
   /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory moves without being heard of.
   void follow_bat(double instant);
+
+  /// Called before the first update with another stamp than the newest is applied: the mirror then holds all that was true at the newest, and will not again.
+  std::function<void()> before_next_stamp;
 
   /// Makes the client keep what it hears, for who measures it; off at first.
   void watch() { is_watched_ = true; }

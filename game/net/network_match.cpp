@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "game/model/scene_file.h"
+#include "game/model/time_grid.h"
 
 namespace rink::game {
 namespace {
 
-constexpr double tick_longest_s = 1.0 / 30.0;  ///< a host ticks at least so often
 constexpr double foretold_longest_s = 60.0;    ///< without news, which come every few seconds while anything moves
+constexpr std::uint32_t caught_up_most = 32;   ///< ticks heard of in one frame, each of which is worked out: half a second's; a host could send any number
 constexpr double time_bend = 0.5;              ///< how much slower or faster than real time the other's time may run while its delay changes
 
 // What a match may say without being no match: beyond, an engine that takes its word would have no end of impacts, or no next instant.
@@ -38,6 +39,9 @@ ClientSettings NetworkMatch::client_settings(const NetworkMatchSettings& setting
 NetworkMatch::NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::Transport& transport, rti::ConnectionId connection, const NetworkMatchSettings& settings)
     : settings_(settings), client_(fom, model, client_settings(settings)), transport_(transport), link_(client_.ambassador(), transport, connection) {
   links_.add(link_);
+  client_.before_next_stamp = [this] {  // what came in between is a past that is still to be shown
+    if (caught_up_++ < caught_up_most) hear(now_s_);
+  };
 }
 
 void NetworkMatch::press(std::uint32_t, Key key, bool is_down) { pressed_.push_back({key, is_down}); }
@@ -60,6 +64,7 @@ void NetworkMatch::leave(double now_s) {
 void NetworkMatch::advance(double now_s) {
   assert(!has_left_);
   if (trouble_.empty()) {
+    caught_up_ = 0;
     converse(now_s);
     hear(now_s);
     predict(now_s);
@@ -71,8 +76,10 @@ void NetworkMatch::advance(double now_s) {
 
 void NetworkMatch::converse(double now_s) {
   transport_.poll({}, links_);
-  if (client_.state() == Client::State::refused || client_.state() == Client::State::lost) lose(client_.trouble());
-  else if (link_.is_finished()) lose(std::string("the connection is closed: ") + rti::to_string(link_.close_reason()));
+  has_joined_ = has_joined_ || client_.ambassador().is_joined();
+  const std::string beginning = has_joined_ ? "" : client_.state() == Client::State::refused ? "the host refuses: " : "no answer from the host: ";
+  if (client_.state() == Client::State::refused || client_.state() == Client::State::lost) lose(beginning + client_.trouble());
+  else if (link_.is_finished()) lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
   if (!trouble_.empty()) return;
   if (const auto pong = client_.take_pong()) clock_.answered(pong->number, pong->server_s, now_s);
   clock_.advance(now_s);
@@ -89,6 +96,9 @@ void NetworkMatch::hear(double now_s) {
   if (mirror.counters().updates == heard_updates_) return;
   heard_updates_ = mirror.counters().updates;
   heard_s_ = now_s;
+  const double told_s = mirror.newest().time;
+  const bool did_run = state_.phase == MatchPhase::playing && told_s > state_.clock_simulated_s;
+  if (did_run && rink_ && rink_->has_heard() && match_number_ == mirror.match().number) news_.heard(rink_->now(), told_s - mirror.match_tick() - tick_grid);
   state_ = mirror.match();
   if (!read_scene()) return;
   const std::optional<ToldRink> news = told();
@@ -158,9 +168,10 @@ void NetworkMatch::predict(double now_s) {
 
 void NetworkMatch::press_keys(double instant) {
   if (client_.state() == Client::State::playing && !settings_.only_watches) {
+    const double felt_at = next_on(key_grid, instant);
     for (const PressedKey& pressed : pressed_) {
-      pressed.is_down ? client_.press(pressed.key, instant) : client_.release(pressed.key, instant);
-      rink_->press(pressed.key, pressed.is_down, instant);
+      pressed.is_down ? client_.press(pressed.key, felt_at) : client_.release(pressed.key, felt_at);
+      rink_->press(pressed.key, pressed.is_down, felt_at);
     }
   }
   pressed_.clear();
@@ -168,7 +179,7 @@ void NetworkMatch::press_keys(double instant) {
 
 /// Where time stands everything is known, and the other need not be shown late.
 void NetworkMatch::move_delay(double dt) {
-  const double wanted = state_.phase == MatchPhase::playing ? clock_.delay(tick_longest_s) : 0.0;
+  const double wanted = state_.phase == MatchPhase::playing ? news_.delay().value_or(clock_.delay(client_.mirror().match_tick() + tick_grid)) : 0.0;
   delay_ = std::clamp(wanted, std::max(0.0, delay_ - time_bend * dt), delay_ + time_bend * dt);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "game/match/match_source.h"
+#include "game/match/news_delay.h"
 #include "game/match/noises.h"
 #include "game/match/predicted_rink.h"
 #include "game/match/server_clock.h"
@@ -77,11 +78,13 @@ class NetworkMatch final : public MatchSource {
   rti::FederateLink link_;
   rti::FederateLinks links_;
   ServerClock clock_;
+  NewsDelay news_;
   std::optional<Scene> scene_;
   std::optional<PredictedRink> rink_;
   MatchState state_;                 ///< as last heard
   std::uint32_t match_number_ = 0;   ///< that rink_ foretells
   std::uint64_t heard_updates_ = 0;
+  std::uint32_t caught_up_ = 0;      ///< stamps, in this frame
   std::vector<PressedKey> pressed_;
   std::vector<Thing> all_things_;    ///< of the scene
   MatchSight sight_;
@@ -94,7 +97,7 @@ class NetworkMatch final : public MatchSource {
   std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
   double inspected_s_ = 0.0;               ///< when the server was last asked
   std::string trouble_;
-  bool has_left_ = false;
+  bool has_joined_ = false, has_left_ = false;
 };
 
 }  // namespace rink::game

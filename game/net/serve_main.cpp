@@ -67,6 +67,8 @@ class ServerProcess {
       serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
   }
 
+  /// Says at once if matches cannot be recorded; they can be played all the same.
+  void try_records();
   std::uint16_t listen() { return tcp_.listen(options_.address, options_.port); }
 
   /// Waits for the players and the start barrier; false if they did not all come in time.
@@ -89,6 +91,7 @@ class ServerProcess {
   void exchange_until(double until_s);
   void await_turns();
   void tick(std::uint64_t number);
+  void keep_records();
 
   game::ServeOptions options_;
   rti::TcpTransport tcp_;
@@ -146,7 +149,7 @@ void ServerProcess::tick(std::uint64_t number) {
   const double simulated_s = options_.hosted.empty() ? elapsed_s : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
-  for (const game::KeyLog& log : server_.take_finished()) records_.write(log);
+  keep_records();
   if (elapsed_s < options_.warm_up_s) return;
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
@@ -184,7 +187,20 @@ void ServerProcess::end() {
   while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
   if (options_.hosted.empty()) return;
   server_.finish_record();
-  for (const game::KeyLog& log : server_.take_finished()) records_.write(log);
+  keep_records();
+}
+
+void ServerProcess::try_records() {
+  if (options_.hosted.empty()) return;
+  if (const auto trouble = records_.test()) spdlog::error("{}; matches are played without a record", *trouble);
+}
+
+/// Players are told on their screens if there is none.
+void ServerProcess::keep_records() {
+  for (const game::KeyLog& log : server_.take_finished()) {
+    if (const auto trouble = records_.keep(log)) spdlog::error("{}; matches go on", *trouble);
+    server_.set_unrecorded(records_.is_failing());
+  }
 }
 
 std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneChoice& choice) const {
@@ -225,7 +241,6 @@ Json ServerProcess::report() const {
 void require_match(const game::ServeOptions& options, const game::Scene& scene) {
   if (const auto objection = game::match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
   if (game::scene_text(options.scene).size() > game::SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
-  game::MatchRecords(options.record).require_writable();
   if (!options.keys.empty() || options.pace != "realtime") throw std::runtime_error("a hosted match is played by its players in real time: --keys and --pace cannot be given");
 }
 
@@ -288,6 +303,7 @@ game::ExitStatus serve(game::ServeOptions& options) {
   const std::uint16_t port = process.listen();
   std::printf("listening on %s:%u\n", options.address.c_str(), static_cast<unsigned>(port));
   std::fflush(stdout);
+  process.try_records();
   const bool is_complete = process.start();
   if (is_complete) process.run();
   Json report = process.report();

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "game/model/time_grid.h"
 #include "game/replication/names.h"
 
 namespace rink::game {
@@ -22,7 +23,8 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       is_replay_(settings.replay.has_value()),
       policy_(make_update_policy(settings.policy)),
       sweep_(settings.sweep_ticks, settings.tick_s),
-      ambassador_(fom, *this) {
+      ambassador_(fom, *this),
+      tick_s_(settings.tick_s) {
   assert(!settings.hosting || (!is_replay_ && !match_objection(scene)));
   if (settings.hosting) {
     hosting_ = settings.hosting;
@@ -121,7 +123,7 @@ void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double
   }
   double time = simulated_now();
   if (flow_ && wanted_s < time - 1e-4) ++counters_.keys_late;
-  if (flow_) time = seat.last_key_s = std::max({time, seat.last_key_s, std::min(wanted_s, time + key_lead_max)});
+  if (flow_) time = seat.last_key_s = next_on(key_grid, std::max({time, seat.last_key_s, std::min(wanted_s, time + key_lead_max)}));
   pending_.push_back({.time = time, .player = seat.player});
   if (!are_keys_felt()) return;
   submit({.time = time, .player = seat.player, .kind = is_down ? InputKind::key_down : InputKind::key_up, .key = *key});

@@ -28,7 +28,7 @@ struct ServerSettings {
   std::string federation = "rink";
   std::string policy = "periodic";
   std::uint32_t sweep_ticks = 0;  ///< see RegionSweep
-  double tick_s = 1.0 / 30.0;     ///< simulated time between two ticks [s]; only the sweep needs to know
+  double tick_s = 1.0 / 30.0;     ///< time between two ticks [s], which the sweep needs to know and the players of hosted matches are told
   /// A recorded key log that moves the bats instead of the players' own keys, so that compared runs play the very same game.
   /// Live keys are then received, counted and acknowledged as ever, but not applied; nor are players' comings and goings.
   std::optional<std::vector<InputEvent>> replay;
@@ -68,6 +68,8 @@ class Server : public rti::FederateAmbassador {
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
   /// The present match counts as given up, so that there is a record of it.
   void finish_record();
+  /// Whether the last record could not be written: players are told.
+  void set_unrecorded(bool is_unrecorded) { is_unrecorded_ = is_unrecorded; }
   /// Null unless the server hosts matches.
   const MatchState* match() const { return flow_ ? &flow_->state() : nullptr; }
   /// True once after something was said that should not wait for the next tick.
@@ -164,7 +166,9 @@ class Server : public rti::FederateAmbassador {
   rti::ObjectHandle match_;
   std::uint32_t match_number_ = 0;
   std::vector<KeyLog> finished_;
+  double tick_s_;
   bool is_recorded_ = false;  ///< the present match
+  bool is_unrecorded_ = false;  ///< what was played last could not be written
   bool is_urgent_ = false;
 };
 

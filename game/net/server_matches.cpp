@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "game/control/replay.h"
+#include "game/model/time_grid.h"
 #include "game/net/server.h"
 #include "game/replication/attributes.h"
 
@@ -11,17 +12,19 @@ namespace rink::game {
 void Server::announce_match() {
   for (const rti::InteractionClassHandle interaction : {model_.pause, model_.rematch, model_.ping}) ambassador_.subscribe_interaction_class(interaction);
   ambassador_.publish_interaction_class(model_.pong);
-  ambassador_.publish_object_class_attributes(model_.match, {model_.match_state, model_.match_scene});
+  ambassador_.publish_object_class_attributes(model_.match, {model_.match_state, model_.match_scene, model_.match_tick});
   match_ = ambassador_.register_object_instance(model_.match, "match");
   std::vector<std::byte> bytes;
   const SceneText scene{std::as_bytes(std::span(hosting_->scene_text))};
-  ambassador_.update_attribute_values(match_, {model_.match_scene}, encode(bytes, scene), {});
+  ambassador_.update_attribute_values(match_, {model_.match_scene, model_.match_tick}, encode(bytes, scene, TickPeriod{tick_s_}), {});
   publish_match({});
 }
 
 void Server::publish_match(const rti::Stamp& stamp) {
-  if (published_match_ == flow_->state()) return;
-  published_match_ = flow_->state();
+  MatchState state = flow_->state();
+  state.is_unrecorded = is_unrecorded_;
+  if (published_match_ == state) return;
+  published_match_ = state;
   std::vector<std::byte> bytes;
   ambassador_.update_attribute_values(match_, {model_.match_state}, encode(bytes, *published_match_), stamp);
 }
@@ -35,7 +38,8 @@ double Server::follow_match(double real_s) {
   if (flow_->state().number != match_number_) begin_match();
   if (flow_->state().phase == MatchPhase::over) finish_record();
   if (flow_->state().phase == MatchPhase::countdown) return game_.now();
-  return std::max(game_.now(), simulated_at(flow_->state(), real_s));
+  const double simulated = simulated_at(flow_->state(), real_s);
+  return std::max(game_.now(), flow_->runs() ? last_on(tick_grid, simulated) : simulated);
 }
 
 void Server::begin_match() {
@@ -73,7 +77,7 @@ void Server::receive_wish(Seat& seat, rti::InteractionClassHandle interaction, r
 void Server::release_keys(Seat& seat) {
   if (!are_keys_felt()) return;
   for (const Key key : all_keys)
-    if (seat.held.is_down(key)) submit({.time = std::max(simulated_now(), seat.last_key_s), .player = seat.player, .kind = InputKind::key_up, .key = key});
+    if (seat.held.is_down(key)) submit({.time = next_on(key_grid, std::max(simulated_now(), seat.last_key_s)), .player = seat.player, .kind = InputKind::key_up, .key = key});
   seat.held = {};
 }
 

@@ -71,7 +71,8 @@ std::optional<ServerEvidence> Serving::evidence() const {
 
 void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   Stopwatch watch(now_s_);
-  server_.publish({.time = simulated_s, .tag = static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
+  const bool is_hosting = server_.match() != nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
+  server_.publish({.time = simulated_s, .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());
   host_.poll({});
   watch.add_to(costs.send_s);

@@ -68,6 +68,17 @@ struct SceneText {
   rti::Bytes text;
 };
 
+/// How often the host of a match ticks.
+struct TickPeriod {
+  static constexpr double longest = 10.0;  ///< s
+  double seconds = 0.0;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, TickPeriod& tick) {
+  return stream.finite(tick.seconds) && tick.seconds >= 0.0 && tick.seconds <= TickPeriod::longest;
+}
+
 template <class Stream>
 bool exchange(Stream& stream, PauseWish& wish) {
   return stream.range(wish.is_wanted, 1);
@@ -80,13 +91,14 @@ bool exchange(Stream& stream, SceneText& scene) {
 
 template <class Stream>
 bool exchange(Stream& stream, MatchState& state) {
-  auto phase = static_cast<std::uint8_t>(state.phase), wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0));
+  auto phase = static_cast<std::uint8_t>(state.phase), wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0) | (state.is_unrecorded ? 4 : 0));
   auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none));
-  const bool is_sound = stream.number(state.number) && stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) && stream.range(wants, 3) && stream.range(winner, 2) &&
+  const bool is_sound = stream.number(state.number) && stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) && stream.range(wants, 7) && stream.range(winner, 2) &&
                         stream.finite(state.until_s) && stream.finite(state.clock_real_s) && stream.finite(state.clock_simulated_s);
   if (!is_sound || !Stream::is_reading) return is_sound;
   state.phase = static_cast<MatchPhase>(phase);
   state.wants_rematch = {(wants & 1) != 0, (wants & 2) != 0};
+  state.is_unrecorded = (wants & 4) != 0;
   state.winner.reset();
   if (static_cast<Team>(winner) != Team::none) state.winner = static_cast<Team>(winner);
   return true;

@@ -82,6 +82,9 @@ bool Mirror::reflect_match(rti::AttributeSet attributes, rti::Bytes values) {
     if (!exchange(reader, scene)) return false;
     match_scene_.assign(reinterpret_cast<const char*>(scene.text.data()), scene.text.size());
   }
+  TickPeriod tick{match_tick_};
+  if (attributes.contains(model_.match_tick) && !exchange(reader, tick)) return false;
+  match_tick_ = tick.seconds;
   match_ = state;
   has_match_ = has_match_ || attributes.contains(model_.match_state);
   return reader.is_at_end();

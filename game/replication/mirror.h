@@ -61,6 +61,7 @@ class Mirror {
   /// Of a hosted match; number 0 before it was heard of.
   const MatchState& match() const { return match_; }
   const std::string& match_scene() const { return match_scene_; }
+  double match_tick() const { return match_tick_; }  ///< s; 0 before it was heard of
   bool has_match() const { return has_match_; }
   const rti::Stamp& newest() const { return newest_; }  ///< the stamp of the newest update of any object
   const MirrorCounters& counters() const { return counters_; }
@@ -88,6 +89,7 @@ class Mirror {
   std::optional<Extent> field_;
   MatchState match_;
   std::string match_scene_;
+  double match_tick_ = 0.0;
   bool has_match_ = false;
   Drag drag_;
   rti::Stamp newest_;

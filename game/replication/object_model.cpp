@@ -59,6 +59,7 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       drag(attribute<Drag>(fom, field, "drag")),
       match_state(attribute<MatchState>(fom, match, "state")),
       match_scene(varying_attribute(fom, match, "scene")),
+      match_tick(attribute<TickPeriod>(fom, match, "tick")),
       key_down(interaction_class(fom, "KeyDown")),
       key_up(interaction_class(fom, "KeyUp")),
       update(interaction_class(fom, "Update")),

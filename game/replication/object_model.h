@@ -15,7 +15,7 @@ struct ObjectModel {
   rti::AttributeHandle shape, input, position, trajectory;  ///< of entity
   rti::AttributeHandle goals;                   ///< of score
   rti::AttributeHandle extent, drag;            ///< of field
-  rti::AttributeHandle match_state, match_scene;  ///< of match
+  rti::AttributeHandle match_state, match_scene, match_tick;  ///< of match
   rti::InteractionClassHandle key_down, key_up, update, seat;
   rti::InteractionClassHandle pause, rematch, ping, pong;  ///< of hosted matches
   rti::InteractionClassHandle inspect, interest;           ///< of who watches

@@ -51,14 +51,11 @@ std::string records_folder(const view::PlayOptions& options) {
 
 /// Where a host keeps its records: a folder that cannot be written to is told of and replaced, for it is the match that matters.
 std::string host_records(const std::string& folder) {
-  try {
-    game::MatchRecords(folder).require_writable();
-    return folder;
-  } catch (const std::exception& error) {
-    const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
-    tell(std::string(error.what()) + "; they are kept in " + other);
-    return other;
-  }
+  const auto trouble = game::MatchRecords(folder).test();
+  if (!trouble) return folder;
+  const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
+  tell(*trouble + "; they are kept in " + other);
+  return other;
 }
 
 /// A local match whose records are kept, also of one that is given up. A record that cannot be written is told of; the match goes on.
@@ -81,11 +78,10 @@ class RecordedMatch final : public game::MatchSource {
 
  private:
   void keep() {
-    for (const game::KeyLog& log : match_.take_finished()) try {
-        records_.write(log);
-      } catch (const std::exception& error) {
-        tell(error.what());
-      }
+    for (const game::KeyLog& log : match_.take_finished()) {
+      if (const auto trouble = records_.keep(log)) tell(*trouble);
+      match_.set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
+    }
   }
   game::LocalMatch match_;
   game::MatchRecords records_;

@@ -56,7 +56,7 @@ TEST(KeyLog, IsTextThatPeopleCanWrite) {
 
 TEST(KeyLog, SaysWhichLineIsWrongAndWhatWasExpected) {
   EXPECT_THAT(refusal(""), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
-  EXPECT_THAT(refusal("rink-keys 2\n"), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
+  EXPECT_THAT(refusal("rink-keys 3\n"), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
   EXPECT_THAT(refusal("rink-keys 1\nseed x\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("whole number")));
   EXPECT_THAT(refusal("rink-keys 1\nspeed 4\n"), AllOf(HasSubstr("bad.log:2")));
   EXPECT_THAT(refusal("rink-keys 1\nnan 0 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("from 0 to 1e9 s")));

@@ -55,13 +55,27 @@ TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
   EXPECT_THAT(duel.last_words(), HasSubstr("closed by peer"));
 }
 
-TEST(ServeMatch, RefusesAScenesThatIsNoMatchAndAFolderThatCannotBeWritten) {
+TEST(ServeMatch, RefusesASceneThatIsNoMatch) {
   Process crowd(command("serve"), {"crowd", "--port", "0"}, {});
   EXPECT_EQ(status_of(crowd, 10s), 2);
   EXPECT_THAT(crowd.last_words(), HasSubstr("cannot be hosted: it has populations"));
-  Process nowhere(command("serve"), {"match", "--port", "0", "--record", "/proc/nowhere"}, {});
-  EXPECT_EQ(status_of(nowhere, 10s), 2);
-  EXPECT_THAT(nowhere.last_words(), HasSubstr("/proc/nowhere"));
+}
+
+TEST(ServeMatch, GoesOnWhereNoRecordCanBeWrittenAndSaysItOnce) {
+  Process host(command("serve"), {"match", "--port", "0", "--countdown", "0.2", "--record", "/proc/nowhere"}, {});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) host.attend(10ms), place = host.line_after("listening on ");
+  ASSERT_TRUE(place) << host.last_words();
+  for (int round = 0; round < 2; ++round) {
+    Process duel(command("duel"), {"--connect", *place, "--duration", "1"}, {});
+    EXPECT_EQ(status_of(duel, 10s), 0) << duel.last_words();
+  }
+  host.attend(20ms);
+  EXPECT_FALSE(host.ending());
+  host.stop(5s);
+  const std::string said = host.last_words();
+  EXPECT_THAT(said, HasSubstr("/proc/nowhere: this folder for records of matches cannot be made"));
+  EXPECT_EQ(said.find("/proc/nowhere"), said.rfind("/proc/nowhere")) << said;
 }
 
 }  // namespace

@@ -79,6 +79,33 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
   }
 }
 
+std::size_t size_of(StampMessage message) {
+  expect_round_trip(message);
+  return measure(message);
+}
+
+TEST(Message, StampsLeaveOutTheZerosOfTimeAndTag) {
+  EXPECT_EQ(size_of({Stamp{0.0, 0}}), 2u);
+  EXPECT_EQ(size_of({Stamp{-0.0, 0}}), 3u);
+  EXPECT_EQ(size_of({Stamp{1.0, 1}}), 5u) << "two bytes of the time, one of the tag";
+  EXPECT_EQ(size_of({Stamp{299.0 + 1023.0 / 1024.0, 0}}), 6u) << "any instant of a match's first 512 s on a grid of 1/1024 s";
+  EXPECT_EQ(size_of({Stamp{0.1, ~0ull}}), StampMessage::size_max);
+}
+
+TEST(Message, StampsWithImpossibleSizesOrTimesAreRefused) {
+  const auto is_read = [](std::vector<unsigned> bytes) {
+    std::vector<std::byte> body;
+    for (const unsigned byte : bytes) body.push_back(static_cast<std::byte>(byte));
+    body.resize(body.size() + 20);
+    Reader reader(body);
+    Stamp stamp;
+    return exchange(reader, stamp);
+  };
+  EXPECT_TRUE(is_read({0x02, 0xf0, 0x3f})) << "1 s";
+  EXPECT_FALSE(is_read({0x02, 0xf0, 0x7f})) << "infinity";
+  for (unsigned sizes = 0; sizes < 256; ++sizes) EXPECT_EQ(is_read({sizes}), (sizes & 15u) <= 8 && sizes >> 4 <= 8) << sizes;
+}
+
 TEST(Message, NumbersTakeOneByteForEachSevenBitsAndReadBackAtEveryPowerOfTwo) {
   for (unsigned bit = 0; bit < 64; ++bit) {
     for (const std::uint64_t value : {(1ull << bit) - 1, 1ull << bit, (1ull << bit) | 1}) {
