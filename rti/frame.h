@@ -63,14 +63,14 @@ class FrameWriter {
 /// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and never believes a length before they are there.
 class FrameReader {
  public:
-  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops and returns false as soon as it does. `limit()` is asked before each
+  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops and returns false as soon as it does, or at a length of 0 or beyond the limit. `limit()` is asked before each
   /// frame, since it may change with what was said. Nothing is copied of frames that arrive whole.
   template <class Limit, class Take>
   bool receive(Bytes bytes, Limit limit, Take take) {
     while (!bytes.empty()) {
       if (partial_.empty() && bytes.size() >= frame_header_size) {
         const std::size_t size = length(bytes);
-        if (size > limit()) return is_oversized_ = true, false;
+        if (!is_allowed(size, limit())) return false;
         if (bytes.size() >= frame_header_size + size) {
           if (!take(bytes.subspan(frame_header_size, size))) return false;
           bytes = bytes.subspan(frame_header_size + size);
@@ -79,7 +79,7 @@ class FrameReader {
       }
       if (!fill(bytes, frame_header_size)) return true;
       const std::size_t size = length(partial_);
-      if (size > limit()) return is_oversized_ = true, false;
+      if (!is_allowed(size, limit())) return false;
       if (!fill(bytes, frame_header_size + size)) return true;
       complete_.swap(partial_);
       partial_.clear();
@@ -97,6 +97,11 @@ class FrameReader {
     std::uint32_t value = 0;
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
+  }
+  /// A frame without a message is nobody's: a stream of zeros is no conversation.
+  bool is_allowed(std::size_t size, std::size_t limit) {
+    is_oversized_ = size > limit;
+    return !is_oversized_ && size > 0;
   }
   /// Moves bytes to `partial_` until it has `size`; true if it has.
   bool fill(Bytes& bytes, std::size_t size) {

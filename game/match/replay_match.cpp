@@ -36,7 +36,7 @@ void ReplayMatch::advance(double now_s) {
   now_s_ = now_s;
   replay_.seek(wanted_);
   show_game(replay_.game(), sight_);
-  sight_.phase = wanted_ == end() ? MatchPhase::over : is_paused_ ? MatchPhase::paused : MatchPhase::playing;
+  sight_.phase = wanted_ == end() ? MatchPhase::over : MatchPhase::playing;  // one who stops it wants to look at it
   const Score& score = sight_.score;
   sight_.winner.reset();
   if (replay_.game().is_over()) sight_.winner = score.left > score.right ? Team::left : Team::right;

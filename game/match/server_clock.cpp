@@ -1,8 +1,10 @@
-// The latest arrival and the longest round trip of late are what is counted on, so that keys are seldom late and truth is seldom missing.
+// The latest arrival and the longest round trip of late are what is counted on, so that keys are seldom late and truth is seldom missing; but for what was held up.
 #include "game/match/server_clock.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace rink::game {
 namespace {
@@ -13,8 +15,8 @@ double slewed(double from, double to, double most, double jump_from) { return st
 
 std::optional<std::uint64_t> ServerClock::ask(double now_s) {
   if (now_s < next_at_s_) return std::nullopt;
-  // The first few in quick succession: one would not say how much to spare.
-  next_at_s_ = now_s + (next_ <= 4 ? 0.1 : 1.0) * question_period;
+  // The first few in quick succession: one would not say how much to spare, nor which of them a window that is still opening has held up.
+  next_at_s_ = now_s + (next_ <= hasty ? 0.1 : 1.0) * question_period;
   questions_.push_back({next_, now_s, false});
   while (questions_.size() > 2 * remembered) questions_.pop_front();
   return next_++;
@@ -35,10 +37,18 @@ void ServerClock::advance(double now_s) {
   const double most = slew * std::max(0.0, now_s - now_s_);
   now_s_ = now_s;
   if (answers_.empty()) return;
-  const auto by_offset = [](const Answer& a, const Answer& b) { return a.offset < b.offset; };
-  const auto by_round_trip = [](const Answer& a, const Answer& b) { return a.round_trip < b.round_trip; };
-  const double offset = std::max_element(answers_.begin(), answers_.end(), by_offset)->offset;
-  const double round_trip = std::max_element(answers_.begin(), answers_.end(), by_round_trip)->round_trip;
+  std::array<double, remembered> trips{};
+  const auto middle = trips.begin() + static_cast<std::ptrdiff_t>(answers_.size() / 2);
+  const auto end = std::ranges::transform(answers_, trips.begin(), &Answer::round_trip).out;
+  std::nth_element(trips.begin(), middle, end);
+  // A process that was stopped, a window that was drawn anew: to count on that would make all that follows late by as much.
+  const double held_up_from = held_up_times * *middle + held_up_more;
+  double offset = -std::numeric_limits<double>::infinity(), round_trip = 0.0;
+  for (const Answer& answer : answers_) {
+    if (answer.round_trip > held_up_from) continue;
+    offset = std::max(offset, answer.offset);
+    round_trip = std::max(round_trip, answer.round_trip);
+  }
   offset_ = is_first_ ? offset : slewed(offset_, offset, most, jump_from);
   round_trip_ = is_first_ ? round_trip : slewed(round_trip_, round_trip, most, jump_from);
   is_first_ = false;

@@ -35,6 +35,8 @@ class ServerClock {
   static constexpr double slew = 0.1;           ///< how fast estimates move: a tenth of real time is not noticed
   static constexpr double jump_from = 0.25;     ///< s: what is further off jumps
   static constexpr std::size_t remembered = 16; ///< answers: a quarter of a minute
+  static constexpr std::uint64_t hasty = 12;    ///< questions at the start, a tenth of a second apart
+  static constexpr double held_up_times = 3.0, held_up_more = 0.03;  ///< [1], [s]: answers that took this much longer than the middle one do not count
   struct Question {
     std::uint64_t number;
     double sent_s;

@@ -11,6 +11,7 @@
 namespace rink::game {
 namespace {
 
+constexpr double match_patience_s = 3.0;       ///< for a match to be told of, once joined
 constexpr double foretold_longest_s = 60.0;    ///< without news, which come every few seconds while anything moves
 constexpr std::uint32_t caught_up_most = 32;   ///< ticks heard of in one frame, each of which is worked out: half a second's; a host could send any number
 constexpr double time_bend = 0.5;              ///< how much slower or faster than real time the other's time may run while its delay changes
@@ -76,10 +77,11 @@ void NetworkMatch::advance(double now_s) {
 
 void NetworkMatch::converse(double now_s) {
   transport_.poll({}, links_);
-  has_joined_ = has_joined_ || client_.ambassador().is_joined();
-  const std::string beginning = has_joined_ ? "" : client_.state() == Client::State::refused ? "the host refuses: " : "no answer from the host: ";
+  if (!joined_s_ && client_.ambassador().is_joined()) joined_s_ = now_s;
+  const std::string beginning = joined_s_ ? "" : client_.state() == Client::State::refused ? "the host refuses: " : "no answer from the host: ";
   if (client_.state() == Client::State::refused || client_.state() == Client::State::lost) lose(beginning + client_.trouble());
   else if (link_.is_finished()) lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
+  else if (!settings_.only_watches && joined_s_ && now_s > *joined_s_ + match_patience_s && !client_.mirror().has_match()) lose("no match is hosted there; what goes on can be watched");
   if (!trouble_.empty()) return;
   if (const auto pong = client_.take_pong()) clock_.answered(pong->number, pong->server_s, now_s);
   clock_.advance(now_s);

@@ -97,7 +97,8 @@ class NetworkMatch final : public MatchSource {
   std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
   double inspected_s_ = 0.0;               ///< when the server was last asked
   std::string trouble_;
-  bool has_joined_ = false, has_left_ = false;
+  std::optional<double> joined_s_;  ///< real time
+  bool has_left_ = false;
 };
 
 }  // namespace rink::game

@@ -11,7 +11,7 @@ void NetworkMatch::show(double now_s) {
   else if (settings_.only_watches) show_mirror(now_s);
   show_state(now_s);
   show_interest(now_s);
-  sight_.notice = trouble_;
+  sight_.notice = trouble_.empty() && !joined_s_ ? "connecting ..." : trouble_;
   if (trouble_.empty() && state_.is_unrecorded && sight_.phase != MatchPhase::playing) sight_.notice = "The host could not record the last match";
   show_link(now_s);
   goals_.look(sight_, now_s, scene_ ? scene_->rules.face_off_delay : 0.0);

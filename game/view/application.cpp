@@ -43,7 +43,7 @@ void Application::start(const MatchWish& wish) {
   wish_ = wish;
   view_ = {};
   phase_.reset();
-  follows_ = false;
+  follows_ = is_told_ = false;
 }
 
 void Application::play(const MatchWish& wish) {
@@ -277,7 +277,10 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
     words = picture_from(choice.viewpoint, canvas);
   }
   words.is_split = has_two;
-  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) words.texts.push_back(replay_line(*replay));
+  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
+    words.texts.push_back(replay_line(*replay));
+    if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.tell) surroundings_.tell(wish_.address + ": " + sight.notice);
+  }
   if (is_behind_menu || has_settings) {
     words.texts.clear();
     words.dimming = is_behind_menu ? 0.45f : 0.6f;

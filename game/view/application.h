@@ -85,6 +85,7 @@ class Application {
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
   bool shows_figures_ = false, follows_ = false, is_dragging_ = false;
+  bool is_told_ = false;  ///< what a replay has to say of itself
   double mouse_x_ = 0.0, mouse_y_ = 0.0, dragged_ = 0.0;  ///< pixels
   WindowSize size_;
   double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;

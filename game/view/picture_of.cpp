@@ -87,7 +87,7 @@ void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
   else if (sight.phase == Phase::playing && sight.scorer) headline("GOAL", score, toned(colour_of(*sight.scorer), 0.15f));
   else if (sight.phase == Phase::paused) headline("PAUSED", "", white);
   else if (sight.phase == Phase::waiting) headline("WAITING", "for the other player", white);
-  else if (sight.phase == Phase::away) headline("OPPONENT LEFT", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s))) + " s to come back", white);
+  else if (sight.phase == Phase::away) headline("OPPONENT LEFT", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s - 0.3))) + " s to come back", white);
   else if (sight.phase == Phase::lost) headline("CONNECTION LOST", "", white);
   else if (sight.phase == Phase::over && sight.winner) headline(victory(name_of(sight, *sight.winner)), score, toned(colour_of(*sight.winner), 0.15f));
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "game/net/network_match.h"
 #include "rti/message.h"
@@ -25,7 +26,8 @@ class FalseHost final : public rti::TransportListener {
  private:
   void on_open(rti::ConnectionId) override {}
   void on_bytes(rti::ConnectionId connection, rti::Bytes) override {
-    const rti::Bytes answer = answer_;
+    const std::vector<std::byte> once = std::exchange(answer_, {});
+    const rti::Bytes answer = once;
     if (!answer.empty()) tcp_.send(connection, std::span(&answer, 1));
   }
   void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override {}
@@ -86,9 +88,18 @@ TEST(AHostThatIsNone, ThatNeverAnswersIsGivenUpAfterFiveSeconds) {
   EXPECT_NEAR(outcome.after_s, 5.0, 0.5);
 }
 
+TEST(AHostThatIsNone, BecauseItHostsNoMatchSaysThatItCanBeWatched) {
+  FalseHost host(frame_of(rti::JoinedMessage{1, 1}));
+  const Outcome outcome = joining(host, 20.0);
+  EXPECT_EQ(outcome.phase, MatchPhase::lost);
+  EXPECT_THAT(outcome.notice, HasSubstr("no match is hosted there"));
+  EXPECT_LT(outcome.after_s, 4.0);
+}
+
 TEST(AHostThatIsNone, ThatTalksNonsenseIsLeft) {
   const std::vector<std::vector<std::byte>> answers{garbage({0xff, 0xff, 0xff, 0xff, 1, 2, 3}),                  // a frame of 4 GB
                                                     garbage({3, 0, 0, 0, 200, 1, 2}),                            // a message that is none
+                                                    std::vector<std::byte>(1000),                                // zeros: frames without messages
                                                     garbage({'H', 'T', 'T', 'P', '/', '1', '.', '1', ' ', '4'}), // somebody else's protocol
                                                     garbage({2, 0, 0, 0, 64, 1}),                                // half a message
                                                     frame_of(rti::StampMessage{{1.0, 2}})};                      // before joining

@@ -126,7 +126,7 @@ TEST(ARecordedMatch, IsWatchedSlowlyStoppedAndSoughtIn) {
   match.pause(true);
   play(match, now_s, 2.0);
   EXPECT_NEAR(match.sight().time, 2.5, 0.03);
-  EXPECT_EQ(match.sight().phase, MatchPhase::paused);
+  EXPECT_EQ(match.sight().phase, MatchPhase::playing) << "nothing is laid over what was stopped to be looked at";
   match.pause(false);
   match.seek(1.0);
   match.advance(now_s += 0.01);

@@ -50,6 +50,21 @@ TEST(AServerClock, NeitherJumpsNorStopsWhenTheDelayChanges) {
   EXPECT_GE(clock.arrival(now_s), now_s + 0.08);
 }
 
+TEST(AServerClock, DoesNotCountOnWhatWasHeldUp) {
+  ServerClock clock;
+  double now_s = 0.0;
+  converse(clock, now_s, 0.2, 0.25, 0.15, 0.0);  // the window opens
+  converse(clock, now_s, 3.0, 0.002, 0.002, 0.0);
+  EXPECT_NEAR(clock.arrival(now_s), now_s + 0.002, 6e-3);
+  converse(clock, now_s, 0.01, 1.9, 0.1, 0.0);  // the server is stopped for two seconds
+  for (int second = 0; second < 20; ++second) {
+    converse(clock, now_s, 1.0, 0.002, 0.002, 0.0);
+    EXPECT_NEAR(clock.arrival(now_s), now_s + 0.002, 6e-3) << second;
+  }
+  converse(clock, now_s, 20.0, 0.3, 0.3, 0.0);  // the way has become longer
+  EXPECT_NEAR(clock.arrival(now_s), now_s + 0.3, 6e-3);
+}
+
 TEST(AServerClock, CountsQuestionsWithoutAnswerAndIgnoresAnswersToNone) {
   ServerClock clock;
   clock.answered(7, 1.0, 1.0);

@@ -101,7 +101,7 @@ TEST(Pictures, SayInEveryPhaseWhatIsGoingOn) {
   EXPECT_TRUE(says("PAUSED"));
   sight.phase = Phase::waiting;
   EXPECT_TRUE(says("WAITING"));
-  sight.phase = Phase::away, sight.remaining_s = 12.2;
+  sight.phase = Phase::away, sight.remaining_s = 12.4;
   EXPECT_TRUE(says("13 s to come back"));
   sight.phase = Phase::over, sight.winner = game::Team::right, sight.right_name = "Blue";
   EXPECT_TRUE(says("BLUE WINS"));

@@ -12,10 +12,12 @@
 
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
+#include "rti/transport/tcp.h"
 
 namespace rink::view {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -112,19 +114,23 @@ TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
   EXPECT_EQ(play("--offscreen"), 2);
   EXPECT_EQ(play("--offscreen --screenshot a.png --size 9x9"), 2);
   EXPECT_EQ(play("--two --bot club"), 2);
+  EXPECT_EQ(play("--host 99999"), 2);
+  EXPECT_EQ(play("--offscreen --screenshot a.png --at nan"), 2);
 }
 
 TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
   std::ofstream(file("altered.keys")) << "rink-keys 1\nscene match\n";
   const std::pair<const char*, const char*> cases[] = {{"--join 127.0.0.1:1", "Connection refused"},
                                                        {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
-                                                       {"--host 99999", "cannot host: "},
                                                        {"--replay altered.keys", "altered.keys"},
                                                        {"--replay missing.keys", "missing.keys"}};
   for (const auto& [arguments, words] : cases) {
     EXPECT_EQ(play(arguments, "0.3 end\n"), 0) << arguments;
     EXPECT_THAT(said_, HasSubstr(words)) << arguments;
   }
+  rti::TcpTransport other;
+  EXPECT_EQ(play("--host " + std::to_string(other.listen("0.0.0.0", 0)), "0.3 end\n"), 0);
+  EXPECT_THAT(said_, AllOf(HasSubstr("cannot host: "), HasSubstr("in use")));
 }
 
 TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
