@@ -13,6 +13,7 @@
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "rti/transport/tcp.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::view {
 namespace {
@@ -48,9 +49,7 @@ class PlayCommand : public ::testing::Test {
     const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + RINK_BINARY_DIR + "/bin/rink-play " + arguments +
                                 (script.empty() ? "" : " --offscreen --size 640x360 --script script") + " 2>err";
     const int status = std::system(command.c_str());
-    std::ostringstream words;
-    words << std::ifstream(file("err")).rdbuf();
-    said_ = words.str();
+    said_ = test::text_of(file("err"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
@@ -146,19 +145,13 @@ class PlayCommandLong : public PlayCommand {};
 TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
   const std::string port = std::to_string(20'000 + getpid() % 20'000);
   std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
-  const std::string joining = "cd " + folder_.string() + " && sleep 1 && " + RINK_BINARY_DIR + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err &";
+  const std::string joining = "cd " + folder_.string() + " && (sleep 1; " + RINK_BINARY_DIR + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err; echo $? >joined_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
   ASSERT_EQ(play("--host " + port + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
-  std::ostringstream words;
-  for (int i = 0; i < 50 && words.str().empty(); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    words.str("");
-    words << std::ifstream(file("joined_err")).rdbuf();
-  }
-  EXPECT_THAT(words.str(), HasSubstr("The match cannot go on"));
+  for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_THAT(test::text_of(file("joined_err")), HasSubstr("The match cannot go on"));
   EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
   EXPECT_GT(difference(read_png(file("joined.png")), read_png(file("hosted.png"))).mean, 1.0) << "each sees it from the own end";
-  std::this_thread::sleep_for(std::chrono::seconds(3));  // until the other window is closed, before its folder goes
 }
 
 }  // namespace
