@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cstring>
 
-#include "rti/message.h"
-#include "rti/update_block.h"
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
 
 namespace rink::rti {
 

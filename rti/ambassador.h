@@ -10,11 +10,11 @@
 
 #include "im/filter.h"
 #include "rti/federate_ambassador.h"
-#include "rti/fom.h"
-#include "rti/frame.h"
-#include "rti/message.h"
-#include "rti/object_map.h"
-#include "rti/stream.h"
+#include "rti/fom/fom.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/message.h"
+#include "rti/objects/object_map.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
@@ -65,7 +65,7 @@ class Ambassador {
   void subscribe_interaction_class(InteractionClassHandle interaction_class);
   void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
 
-  /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/message.h). The name may be empty.
+  /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/wire/message.h). The name may be empty.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
   /// `values` as in `reflect_attribute_values`. Successive updates of one class, set and stamp travel as one block.

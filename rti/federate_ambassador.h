@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "rti/attribute_set.h"
-#include "rti/bytes.h"
+#include "rti/fom/attribute_set.h"
+#include "rti/wire/bytes.h"
 #include "rti/handles.h"
 #include "rti/membership.h"
 

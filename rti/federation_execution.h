@@ -11,8 +11,8 @@
 
 #include "im/filter.h"
 #include "rti/ambassador.h"
-#include "rti/bytes.h"
-#include "rti/fom.h"
+#include "rti/wire/bytes.h"
+#include "rti/fom/fom.h"
 
 namespace rink::rti {
 

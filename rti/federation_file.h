@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 
 namespace rink::rti {
 

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "rti/federation_parts.h"
-#include "rti/update_block.h"
+#include "rti/wire/update_block.h"
 
 namespace rink::rti {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "rti/federation_execution.h"
-#include "rti/interest.h"
-#include "rti/message.h"
-#include "rti/object_table.h"
-#include "rti/update_runs.h"
+#include "rti/distribution/interest.h"
+#include "rti/wire/message.h"
+#include "rti/objects/object_table.h"
+#include "rti/buffering/update_runs.h"
 
 namespace rink::rti {
 

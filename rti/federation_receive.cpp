@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "rti/federation_parts.h"
-#include "rti/update_block.h"
+#include "rti/wire/update_block.h"
 
 namespace rink::rti {
 

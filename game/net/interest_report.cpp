@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "game/net/interest_codec.h"
-#include "rti/stream.h"
+#include "rti/wire/stream.h"
 
 namespace rink::game {
 namespace {

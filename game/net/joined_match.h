@@ -7,7 +7,7 @@
 #include "game/match/match_source.h"
 #include "game/net/network_match.h"
 #include "game/replication/object_model.h"
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 #include "rti/transport/tcp.h"
 
 namespace rink::game {

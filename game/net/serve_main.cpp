@@ -26,7 +26,7 @@
 #include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
-#include "rti/message.h"
+#include "rti/wire/message.h"
 #include "rti/transport/tcp.h"
 
 namespace {

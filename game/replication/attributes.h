@@ -7,7 +7,7 @@
 
 #include "game/control/match_flow.h"
 #include "game/physics/body.h"
-#include "rti/stream.h"
+#include "rti/wire/stream.h"
 
 namespace rink::game {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "rti/attribute_codec.h"
+#include "rti/fom/attribute_codec.h"
 
 namespace rink::game {
 

@@ -1,7 +1,7 @@
 // Applies discoveries, reflections and changes of scope to the mirror.
 #include "game/replication/mirror.h"
 
-#include "rti/message.h"
+#include "rti/wire/message.h"
 
 namespace rink::game {
 

@@ -13,7 +13,7 @@
 #include "game/replication/object_model.h"
 #include "game/replication/trajectory.h"
 #include "rti/ambassador.h"
-#include "rti/object_map.h"
+#include "rti/objects/object_map.h"
 
 namespace rink::game {
 

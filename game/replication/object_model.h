@@ -1,7 +1,7 @@
 // The handles of Rink's object model, looked up by name once so that a model file that lacks something is refused at the start.
 #pragma once
 
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 #include "rti/handles.h"
 
 namespace rink::game {

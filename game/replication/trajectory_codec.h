@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "rti/attribute_codec.h"
-#include "rti/fom.h"
+#include "rti/fom/attribute_codec.h"
+#include "rti/fom/fom.h"
 
 namespace rink::game {
 

@@ -7,7 +7,7 @@
 
 #include "game/control/game.h"
 #include "game/replication/object_model.h"
-#include "rti/stream.h"
+#include "rti/wire/stream.h"
 
 namespace rink::game {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rti/bytes.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "game/net/network_match.h"
-#include "rti/message.h"
+#include "rti/wire/message.h"
 #include "rti/transport/tcp.h"
 #include "tests/match/match_scene.h"
 

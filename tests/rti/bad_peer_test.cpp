@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "rti/message.h"
-#include "rti/update_block.h"
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {

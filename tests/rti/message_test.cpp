@@ -5,8 +5,8 @@
 #include <array>
 #include <random>
 
-#include "rti/message.h"
-#include "rti/update_block.h"
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {

@@ -1,5 +1,5 @@
 // The map of known objects against an ordered map, and its memory.
-#include "rti/object_map.h"
+#include "rti/objects/object_map.h"
 
 #include <gtest/gtest.h>
 

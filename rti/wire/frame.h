@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "rti/bytes.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -1,9 +1,9 @@
 // Walks through sets of attributes, each coded in its own way.
-#include "rti/attribute_codec.h"
+#include "rti/fom/attribute_codec.h"
 
 #include <cstring>
 
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 
 namespace rink::rti {
 

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "rti/attribute_set.h"
+#include "rti/fom/attribute_set.h"
 #include "rti/federate_ambassador.h"
-#include "rti/frame.h"
+#include "rti/wire/frame.h"
 #include "rti/handles.h"
 #include "rti/membership.h"
-#include "rti/stream.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 3;
+inline constexpr std::uint16_t protocol_version = 4;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
@@ -34,9 +34,11 @@ enum class MessageKind : std::uint8_t {
   publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
   register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
   stamp,
+  // free: 20 to 27 federation management, 28 to 35 time, 36 to 45 ownership, 46 to 51 objects and declarations, 52 to 57 regions, 58 to 63 the connection
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
+  // free: 74 to 81 federation management, 82 to 91 time, 92 to 103 ownership, 104 to 111 objects and declarations, 112 to 117 regions, 118 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -183,7 +185,7 @@ bool exchange(Stream& stream, StampMessage& message) {
   return exchange(stream, message.stamp);
 }
 
-/// Begins a block of updates of one class and attribute set, in both directions; its records follow until a zero (rti/update_block.h).
+/// Begins a block of updates of one class and attribute set, in both directions; its records follow until a zero (rti/wire/update_block.h).
 struct UpdatesMessage {
   static constexpr MessageKind kind = MessageKind::updates;
   std::uint16_t object_class = 0;

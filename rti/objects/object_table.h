@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rti/federate_ambassador.h"
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 
 namespace rink::rti {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "rti/bitmap.h"
-#include "rti/object_table.h"
+#include "rti/objects/bitmap.h"
+#include "rti/objects/object_table.h"
 
 namespace rink::rti {
 

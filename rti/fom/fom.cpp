@@ -1,5 +1,5 @@
 // Look-ups in a federation object model, and the hash by which two ends compare theirs.
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "rti/fom.h"
+#include "rti/fom/fom.h"
 
 namespace rink::rti {
 

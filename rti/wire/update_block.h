@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "rti/attribute_codec.h"
-#include "rti/message.h"
-#include "rti/stream.h"
+#include "rti/fom/attribute_codec.h"
+#include "rti/wire/message.h"
+#include "rti/wire/stream.h"
 
 namespace rink::rti {
 

@@ -1,10 +1,10 @@
 // Runs of updates that share all but object and values.
-#include "rti/update_runs.h"
+#include "rti/buffering/update_runs.h"
 
 #include <algorithm>
 
-#include "rti/message.h"
-#include "rti/update_block.h"
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
 
 namespace rink::rti {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "rti/bitmap.h"
-#include "rti/object_table.h"
+#include "rti/objects/bitmap.h"
+#include "rti/objects/object_table.h"
 
 namespace rink::rti {
 

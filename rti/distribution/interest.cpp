@@ -1,10 +1,10 @@
 // Subscriptions, regions and the scope that follows from them.
-#include "rti/interest.h"
+#include "rti/distribution/interest.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "rti/message.h"
+#include "rti/wire/message.h"
 
 namespace rink::rti {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rti/bytes.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

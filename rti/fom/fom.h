@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "rti/attribute_codec.h"
-#include "rti/attribute_set.h"
-#include "rti/bytes.h"
+#include "rti/fom/attribute_codec.h"
+#include "rti/fom/attribute_set.h"
+#include "rti/wire/bytes.h"
 #include "rti/handles.h"
 
 namespace rink::rti {

@@ -1,10 +1,10 @@
 // Slots, handles and latest values.
-#include "rti/object_table.h"
+#include "rti/objects/object_table.h"
 
 #include <cassert>
 #include <cstring>
 
-#include "rti/message.h"
+#include "rti/wire/message.h"
 
 namespace rink::rti {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "rti/attribute_set.h"
-#include "rti/bytes.h"
+#include "rti/fom/attribute_set.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 
