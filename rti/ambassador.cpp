@@ -12,14 +12,6 @@ namespace rink::rti {
 Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience)
     : fom_(fom), callbacks_(callbacks), patience_(patience), outgoing_(frame_max_to_rti) {}
 
-template <class Message>
-void Ambassador::say(Message message) {
-  assert(phase_ == Phase::joining || phase_ == Phase::joined);
-  write(outgoing_.begin_message(measure(message)), message);
-  outgoing_.appended();
-  open_.is_open = false;
-}
-
 void Ambassador::join(std::string_view federation, std::string_view federate_name, std::string_view federate_type) {
   assert(phase_ == Phase::idle);
   phase_ = Phase::joining;

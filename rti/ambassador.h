@@ -1,6 +1,7 @@
 // A federate's side of the RTI: services in, bytes out; bytes in, callbacks out.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -154,5 +155,13 @@ class Ambassador {
   bool has_clock_ = false, has_said_ = false, has_heard_ = false;
   AmbassadorCounters counters_;
 };
+
+template <class Message>
+void Ambassador::say(Message message) {
+  assert(phase_ == Phase::joining || phase_ == Phase::joined);
+  write(outgoing_.begin_message(measure(message)), message);
+  outgoing_.appended();
+  open_.is_open = false;
+}
 
 }  // namespace rink::rti
