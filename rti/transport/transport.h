@@ -33,6 +33,11 @@ class TransportError : public std::runtime_error {
   Kind kind_;
 };
 
+/// One datagram in two parts that travel as one: what is its receiver's alone, and what may be the same for many.
+struct Datagram {
+  Bytes head, body;
+};
+
 /// Told what a transport found out while it was polled. Callbacks may send and close, but not poll.
 class TransportListener {
  public:
@@ -41,6 +46,8 @@ class TransportListener {
   /// Bytes as the peer sent them, in order, cut anywhere. Valid during the call.
   virtual void on_bytes(ConnectionId connection, Bytes bytes) = 0;
   virtual void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) = 0;
+  /// One whole datagram of the connection's peer, sooner or later than what was sent before or after it, or twice. Valid during the call.
+  virtual void on_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
 };
 
 /// Payload as counted here, and what the kernel says of the same connection where it can (`TCP_INFO`).
@@ -51,9 +58,12 @@ struct TransportCounters {
   std::size_t queued_bytes = 0;                          ///< accepted by `send`, not yet taken by the operating system
   std::optional<std::uint64_t> kernel_bytes_sent;        ///< acknowledged by the peer's kernel
   std::optional<std::uint64_t> kernel_bytes_received;
+  /// Apart from the bytes above: datagrams given to and taken from the operating system, and their payload.
+  std::uint64_t datagrams_sent = 0, datagrams_received = 0, datagram_bytes_sent = 0, datagram_bytes_received = 0;
 };
 
-/// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one thread owns it.
+/// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one thread owns it. Transports that can also lose what may be
+/// lost, and are faster for it, override the last three members; all others leave them alone.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -70,6 +80,13 @@ class Transport {
 
   /// Counters of an open connection, or the last ones of a closed one; all zero for one that never was.
   virtual TransportCounters counters(ConnectionId connection) const = 0;
+
+  /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no way for datagrams, when none may be sent.
+  virtual std::size_t datagram_max(ConnectionId /*connection*/) const { return 0; }
+  /// Sends each as one datagram, or loses it; never queues it for long, never closes the connection. The bytes are valid during the call.
+  virtual void send_datagrams(ConnectionId /*connection*/, std::span<const Datagram> /*datagrams*/) {}
+  /// Gives datagrams that were gathered, so that many go in one system call, to the operating system.
+  virtual void push() {}
 };
 
 }  // namespace rink::rti

@@ -36,6 +36,7 @@ std::uint32_t VirtualNetwork::take_parcel() {
 void VirtualNetwork::return_parcel(std::uint32_t parcel) {
   parcels_[parcel].bytes.clear();
   parcels_[parcel].detail.clear();
+  parcels_[parcel].reason = CloseReason::closed_by_peer;
   parcels_[parcel].receiver = nullptr;
   free_.push_back(parcel);
 }

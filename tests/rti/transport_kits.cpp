@@ -1,0 +1,144 @@
+// The kits: in-process, TCP, the virtual network, and the sample of docs/transports.md.
+#include "tests/rti/transport_kits.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <optional>
+
+#include "rti/transport/in_process.h"
+#include "rti/transport/tcp.h"
+#include "rti/transport/virtual_network.h"
+#include "tests/rti/sample_transport.h"
+
+namespace rink::rti::testing {
+namespace {
+
+/// A name that no other test, in this process or beside it, uses.
+std::string unique_name() {
+  static std::atomic<int> count = 0;
+  return "rink-kit-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+}
+
+class InProcessKit final : public TransportKit {
+ public:
+  InProcessKit() {
+    can_wait = false;
+    connections = 5000;
+    restart_server();
+  }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override { return client_.connect("here"); }
+  ConnectionId connect_to_nobody() override { return client_.connect("nowhere"); }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(network_);
+    server_->listen("here");
+  }
+
+ private:
+  InProcessNetwork network_{1u << 20};
+  InProcessEndpoint client_{network_};
+  std::optional<InProcessEndpoint> server_;
+};
+
+class VirtualKit final : public TransportKit {
+ public:
+  VirtualKit() {
+    can_wait = false;
+    connections = 5000;
+    restart_server();
+  }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override { return client_.connect("here"); }
+  ConnectionId connect_to_nobody() override { return client_.connect("nowhere"); }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(network_);
+    server_->listen("here");
+  }
+  void pass_time() override { network_.advance_to(network_.next_arrival_ns().value_or(network_.now_ns() + 1000)); }
+  bool limit_queue(std::size_t) override { return false; }  // what is under way is the network's, not a queue
+
+ private:
+  ConstantDelay model_{1000};
+  VirtualNetwork network_{model_};
+  VirtualEndpoint client_{network_};
+  std::optional<VirtualEndpoint> server_;
+};
+
+class TcpKit final : public TransportKit {
+ public:
+  TcpKit() { restart_server(); }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override {
+    ensure_file_limit(2 * connections + 64);
+    return client_.connect("127.0.0.1", port_);
+  }
+  ConnectionId connect_to_nobody() override {
+    std::uint16_t port = 0;
+    {
+      TcpTransport gone;
+      port = gone.listen("127.0.0.1", 0);
+    }
+    return client_.connect("127.0.0.1", port);
+  }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(settings_);
+    port_ = server_->listen("127.0.0.1", port_);
+  }
+  bool limit_queue(std::size_t queue_max) override {
+    settings_.queue_max = queue_max;
+    return true;
+  }
+
+ private:
+  TcpSettings settings_;
+  std::uint16_t port_ = 0;
+  TcpTransport client_;
+  std::optional<TcpTransport> server_;
+};
+
+class SampleKit final : public TransportKit {
+ public:
+  SampleKit() { restart_server(); }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override {
+    ensure_file_limit(2 * connections + 64);
+    return client_.connect(name_);
+  }
+  ConnectionId connect_to_nobody() override { return client_.connect(name_ + "-nobody"); }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(queue_max_);
+    server_->listen(name_);
+  }
+  bool limit_queue(std::size_t queue_max) override {
+    queue_max_ = queue_max;
+    return true;
+  }
+
+ private:
+  const std::string name_ = unique_name();
+  std::size_t queue_max_ = 1u << 20;
+  sample::UnixTransport client_;
+  std::optional<sample::UnixTransport> server_;
+};
+
+template <class Kit>
+KitChoice choice(const std::string& name) {
+  return {name, [] { return std::make_unique<Kit>(); }};
+}
+
+}  // namespace
+
+std::vector<KitChoice> transport_kits() {
+  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<SampleKit>("sample")};
+}
+
+}  // namespace rink::rti::testing
