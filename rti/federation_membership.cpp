@@ -6,7 +6,7 @@
 namespace rink::rti {
 
 FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), settings_(settings), objects_(fom), interest_(fom, objects_, std::move(filter)), interaction_subscribers_(fom.interaction_classes().size()) {}
+    : fom_(fom), settings_(settings), objects_(fom), ownership_(fom, objects_), interest_(fom, objects_, ownership_, std::move(filter)), interaction_subscribers_(fom.interaction_classes().size()) {}
 
 void FederationExecution::Parts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);

@@ -10,6 +10,7 @@
 #include "rti/distribution/interest.h"
 #include "rti/wire/message.h"
 #include "rti/objects/object_table.h"
+#include "rti/ownership/ownership.h"
 #include "rti/buffering/update_runs.h"
 
 namespace rink::rti {
@@ -111,6 +112,7 @@ class FederationExecution::Parts {
   const Fom& fom_;
   FederationSettings settings_;
   ObjectTable objects_;
+  Ownership ownership_;
   Interest interest_;
   UpdateRuns runs_;
   std::vector<Connection> connections_;  ///< by id

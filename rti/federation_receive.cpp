@@ -153,7 +153,7 @@ Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader&
   const RegionHandle region{message.region};
   if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
   if (objects_[object].owner != slot) return Violation::not_owned;
-  interest_.associate(object, region);
+  interest_.associate(slot, object, region);
   return std::nullopt;
 }
 

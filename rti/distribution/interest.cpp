@@ -8,7 +8,8 @@
 
 namespace rink::rti {
 
-Interest::Interest(const Fom& fom, ObjectTable& objects, std::unique_ptr<im::Filter> filter) : fom_(fom), objects_(objects), filter_(std::move(filter)) {}
+Interest::Interest(const Fom& fom, ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
+    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)) {}
 
 void Interest::add_federate(std::uint32_t federate) {
   if (federate >= federates_.size()) federates_.resize(federate + 1);
@@ -22,6 +23,8 @@ void Interest::add_federate(std::uint32_t federate) {
 void Interest::remove_federate(std::uint32_t federate) {
   FederateInterest& interest = of(federate);
   while (!interest.regionals.empty()) drop_regional(interest, interest.regionals.back().region);
+  for (const FederateInterest::Region& each : interest.regions)
+    while (!each.objects.empty()) associate(federate, each.objects.back(), {});
   federates_[federate].reset();
 }
 
@@ -108,25 +111,26 @@ void Interest::modify_region(std::uint32_t federate, RegionHandle region, const 
 void Interest::delete_region(std::uint32_t federate, RegionHandle region) {
   FederateInterest& interest = of(federate);
   drop_regional(interest, region);
-  while (!interest.regions[region.value].objects.empty()) associate(interest.regions[region.value].objects.back(), {});
+  while (!interest.regions[region.value].objects.empty()) associate(federate, interest.regions[region.value].objects.back(), {});
   interest.regions[region.value] = {};
 }
 
 void Interest::leave_region(ObjectSlot slot) {
   Object& object = objects_[slot];
   if (!object.region) return;
-  auto& objects = of(object.owner).regions[object.region.value].objects;
+  auto& objects = of(object.region_federate).regions[object.region.value].objects;
   objects.erase(std::find(objects.begin(), objects.end(), slot));
   object.region = {};
 }
 
-void Interest::associate(ObjectSlot slot, RegionHandle region) {
+void Interest::associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region) {
   leave_region(slot);
   Object& object = objects_[slot];
   object.region = region;
+  object.region_federate = federate;
   changed_objects_.push_back(slot);
   if (!region) return forget(slot);
-  FederateInterest::Region& joined = of(object.owner).regions[region.value];
+  FederateInterest::Region& joined = of(federate).regions[region.value];
   joined.objects.push_back(slot);
   if (!joined.has_bounds) return forget(slot);
   filter_->set_update_region(slot, joined.bounds);
@@ -155,7 +159,7 @@ AttributeSet Interest::wanted(const FederateInterest& interest, ObjectSlot slot)
   AttributeSet set = interest.everywhere.expanded[object.object_class];
   for (const FederateInterest::Regional& each : interest.regionals)
     if (!object.region || each.inside.contains(slot)) set = set | each.classes.expanded[object.object_class];
-  return set;
+  return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot) : set;
 }
 
 void Interest::match() {

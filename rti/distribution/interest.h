@@ -10,6 +10,7 @@
 #include "im/filter.h"
 #include "rti/objects/bitmap.h"
 #include "rti/objects/object_table.h"
+#include "rti/ownership/ownership.h"
 
 namespace rink::rti {
 
@@ -61,10 +62,10 @@ struct FederateInterest {
 /// Federates are dense slots, as in the federation execution.
 class Interest {
  public:
-  Interest(const Fom& fom, ObjectTable& objects, std::unique_ptr<im::Filter> filter);
+  Interest(const Fom& fom, ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter);
 
   void add_federate(std::uint32_t federate);
-  /// Its objects must be gone.
+  /// What it owned must be gone or have another owner; objects that still use its regions return to the default region.
   void remove_federate(std::uint32_t federate);
   FederateInterest& of(std::uint32_t federate) { return *federates_[federate]; }
   const FederateInterest& of(std::uint32_t federate) const { return *federates_[federate]; }
@@ -77,9 +78,13 @@ class Interest {
   bool create_region(std::uint32_t federate, RegionHandle region);
   void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds);
   void delete_region(std::uint32_t federate, RegionHandle region);
-  void associate(ObjectSlot slot, RegionHandle region);
+  /// `federate` is whose region it is, and should own what the region is for.
+  void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region);
 
   void object_registered(ObjectSlot slot) { changed_objects_.push_back(slot); }
+  /// Some of its attributes have another owner than at the last match. Its region stays until the new owner associates its own, or its maker deletes it or leaves:
+  /// falling back to the default region meanwhile would show every body that is handed over to everybody.
+  void owner_changed(ObjectSlot slot) { changed_objects_.push_back(slot); }
   /// Nobody hears of it any more; who knew it still has it in `known`.
   void object_deleted(ObjectSlot slot);
 
@@ -104,6 +109,7 @@ class Interest {
 
   const Fom& fom_;
   ObjectTable& objects_;
+  const Ownership& ownership_;
   std::unique_ptr<im::Filter> filter_;
   std::vector<std::unique_ptr<FederateInterest>> federates_;  ///< by federate slot; null where nobody is
   std::vector<std::uint32_t> subscribers_;                    ///< federate slot, by the filter's number

@@ -10,8 +10,13 @@
 
 namespace rink::rti {
 
-/// Most attributes that a class may have, inherited ones included: a set is one word.
+/// A set of attributes is one word.
 inline constexpr std::uint32_t attribute_max = 32;
+/// Every object has this attribute, HLAprivilegeToDeleteObject, whether its class names it or not: who owns it may delete the object. It has no value, whoever
+/// publishes any attribute of a class publishes it, and only ownership management takes and tells it.
+inline constexpr AttributeHandle privilege_to_delete_object{attribute_max - 1};
+/// Most attributes that a class may name, inherited ones included.
+inline constexpr std::uint32_t named_attribute_max = attribute_max - 1;
 
 /// Attributes of one class; bit k stands for the attribute whose handle is k.
 struct AttributeSet {
@@ -30,6 +35,7 @@ struct AttributeSet {
   bool includes(AttributeSet other) const { return (other.bits & ~bits) == 0; }
   bool is_empty() const { return bits == 0; }
   int count() const { return std::popcount(bits); }
+  AttributeSet without(AttributeSet other) const { return AttributeSet(bits & ~other.bits); }
   friend AttributeSet operator|(AttributeSet a, AttributeSet b) { return AttributeSet(a.bits | b.bits); }
   friend AttributeSet operator&(AttributeSet a, AttributeSet b) { return AttributeSet(a.bits & b.bits); }
   friend bool operator==(AttributeSet, AttributeSet) = default;

@@ -57,6 +57,7 @@ std::optional<ObjectClassHandle> Fom::object_class(std::string_view name) const 
 }
 
 std::optional<AttributeHandle> Fom::attribute(ObjectClassHandle object_class, std::string_view name) const {
+  if (name == "HLAprivilegeToDeleteObject") return privilege_to_delete_object;
   const auto index = find_named(at(object_class).attributes, name);
   return index ? std::optional(AttributeHandle{*index}) : std::nullopt;
 }
@@ -78,7 +79,7 @@ std::optional<DimensionHandle> Fom::dimension(std::string_view name) const {
 
 AttributeSet Fom::attributes(ObjectClassHandle handle) const {
   const std::size_t count = at(handle).attributes.size();
-  return AttributeSet(count == attribute_max ? 0xffffffffu : (1u << count) - 1u);
+  return AttributeSet((1u << count) - 1u);
 }
 
 bool Fom::is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const { return inherits(object_classes_, handle, ancestor); }

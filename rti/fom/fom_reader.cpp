@@ -207,8 +207,9 @@ void FomReader::read_object_class(const Node& node, ObjectClassHandle parent) {
   for (const ObjectClass& other : fom_.object_classes_)
     if (other.parent == parent && other.name == object_class.name) fail(node, path(node) + " is declared twice");
   for (const Node& attribute : node.children("attribute")) {
+    if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
     object_class.attributes.push_back(read_attribute(attribute, object_class));
-    if (object_class.attributes.size() > attribute_max) fail(attribute, path(node) + " has more than " + std::to_string(attribute_max) + " attributes");
+    if (object_class.attributes.size() > named_attribute_max) fail(attribute, path(node) + " has more than " + std::to_string(named_attribute_max) + " attributes");
   }
   const ObjectClassHandle handle{static_cast<std::uint32_t>(fom_.object_classes_.size())};
   if (handle.value == class_max) fail(node, "more than " + std::to_string(class_max) + " object classes");

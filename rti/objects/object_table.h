@@ -14,14 +14,18 @@ namespace rink::rti {
 /// Index into the table; used again some time after the object is gone.
 using ObjectSlot = std::uint32_t;
 inline constexpr ObjectSlot no_object = 0xffffffffu;
+inline constexpr std::uint32_t no_federate = 0xffffffffu;  ///< where a federate's slot may stand for nobody
 
 struct Object {
   ObjectHandle handle;
-  std::uint32_t owner = 0;  ///< the federate's slot
+  static constexpr std::uint32_t no_negotiation = 0xffffffffu;
+  std::uint32_t owner = 0;  ///< slot of the federate that owns every attribute; no_federate if several do or some are unowned (rti/ownership)
+  std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
   bool is_filtered = false;          ///< the filter knows its region
-  RegionHandle region;               ///< its owner's, or empty
+  RegionHandle region;               ///< where it is updated, or empty
+  std::uint32_t region_federate = 0; ///< slot of the federate whose region that is
   AttributeSet valued;               ///< attributes that have a value
   std::string name;
   std::vector<std::byte> fixed;      ///< coded values of fixed size, at the class's offsets

@@ -1,0 +1,116 @@
+// Who owns which attribute of which object, who gives it up and who wants it: clause 7 of IEEE 1516.1-2010 as one state machine, without messages.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rti/fom/fom.h"
+#include "rti/objects/object_table.h"
+
+namespace rink::rti {
+
+/// What some federate must be told. Views are valid until the ownership's next operation.
+struct OwnershipEvent {
+  enum class Kind : std::uint8_t {
+    acquired,                ///< it owns these now
+    unavailable,             ///< its wish for these has ended without them
+    cancelled,               ///< its wish for these has ended as it asked
+    release_requested,       ///< it owns these and somebody wants them
+    confirmation_requested,  ///< it offers these and somebody takes them: it may confirm
+    offered,                 ///< these look for an owner; `federate` is no_federate: whoever may own them is to be told
+  };
+  Kind kind;
+  std::uint32_t federate;  ///< its slot
+  AttributeSet attributes; ///< never empty
+};
+
+/// The RTI's ledger. An object whose attributes all belong to one federate and about which nobody negotiates is nothing but `Object::owner`; only the others have a
+/// record, so objects that never change hands cost one comparison. All operations take sets, so that a body of many attributes is handed over at the price of one.
+///
+/// An attribute is unowned, or owned and then possibly *offered* (negotiated divestiture), of which *confirming* (somebody takes it, its owner was asked to confirm).
+/// Each may have any number of claims in the order in which they came: regular ones wait until they are met, denied or cancelled; those *if available* only while the
+/// attribute is offered. Invariants: an unowned attribute is not offered and has no claim; an offered one is confirming if and only if it has one; one that is not
+/// offered has no claim if available. A federate loses an attribute by its own word only.
+class Ownership {
+ public:
+  using Events = std::span<const OwnershipEvent>;
+  Ownership(const Fom& fom, ObjectTable& objects) : fom_(fom), objects_(objects) {}
+
+  /// All that can be owned of an object: its class's attributes and the privilege to delete it.
+  AttributeSet all(ObjectSlot object) const;
+  AttributeSet owned_by(std::uint32_t federate, ObjectSlot object) const;
+  AttributeSet unowned(ObjectSlot object) const;
+  /// Owned by anybody but `federate`.
+  AttributeSet owned_by_others(std::uint32_t federate, ObjectSlot object) const;
+  /// The owner of one attribute, or no_federate.
+  std::uint32_t owner_of(ObjectSlot object, AttributeHandle attribute) const;
+  AttributeSet offered(ObjectSlot object) const;
+  /// Of those: whose owner was asked to confirm, since somebody takes them.
+  AttributeSet confirming(ObjectSlot object) const;
+  /// What `federate` waits for, by either kind of acquisition.
+  AttributeSet sought_by(std::uint32_t federate, ObjectSlot object) const;
+  /// The tag of the latest offer of this object.
+  Bytes offer_tag(ObjectSlot object) const;
+
+  /// Operations of an owner on what it owns; what it doesn't own must have been left out.
+  Events divest(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+  Events offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes, Bytes tag);
+  Events withdraw_offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+  Events deny_release(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+  /// Gives those that somebody wants to who asked first; the others stay where they are. Confirmation and divestiture if wanted are both this.
+  Events give(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+
+  /// Operations of one who wants to own; what it owns is left out here.
+  Events acquire(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+  Events acquire_if_available(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+  Events cancel(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
+
+  /// Its wishes end, of which it isn't told.
+  void forget_claims(std::uint32_t federate);
+  /// Before the object is erased.
+  void forget(ObjectSlot object);
+
+  /// Calls `visit(object)` for each object that is divided or negotiated about. `visit` must not change ownership.
+  template <class Visit>
+  void for_each_record(Visit visit) const {
+    for (const Record& each : records_)
+      if (each.object != no_object) visit(each.object);
+  }
+  std::size_t record_count() const { return records_.size() - free_.size(); }
+
+ private:
+  struct Share {
+    std::uint32_t federate;
+    AttributeSet attributes;
+  };
+  struct Claim {
+    std::uint32_t federate;
+    AttributeSet attributes;
+    bool is_if_available;
+  };
+  struct Record {
+    ObjectSlot object = no_object;
+    std::vector<Share> shares;  ///< by owner; none is empty
+    AttributeSet offered, confirming;
+    std::vector<Claim> claims;  ///< in the order of asking; none is empty
+    std::vector<std::byte> tag;
+  };
+  const Record* find(ObjectSlot object) const;
+  Record& open(ObjectSlot object);
+  void close_if_settled(Record& record);
+  void tell(OwnershipEvent::Kind kind, std::uint32_t federate, AttributeSet attributes);
+  void tell_owners(OwnershipEvent::Kind kind, const Record& record, AttributeSet attributes);
+  void transfer(Record& record, AttributeSet attributes, std::uint32_t to);
+  AttributeSet give_to_claimants(Record& record, AttributeSet attributes);
+  void end_claims(Record& record, AttributeSet attributes, bool also_regular);
+  void drop_empty_claims(Record& record);
+
+  const Fom& fom_;
+  ObjectTable& objects_;
+  std::vector<Record> records_;
+  std::vector<std::uint32_t> free_;
+  std::vector<OwnershipEvent> events_;
+};
+
+}  // namespace rink::rti
