@@ -46,7 +46,7 @@ void Fom::use_codec(std::string_view data_type, std::shared_ptr<const AttributeC
   bool is_used = false;
   for (ObjectClass& object_class : object_classes_)
     for (Attribute& attribute : object_class.attributes)
-      if (attribute.data_type == data_type) attribute.codec = codec, is_used = true;
+      if (attribute.data_type == data_type) attribute.codec = codec, attribute.baselines = nullptr, is_used = true;
   if (!is_used) throw FileError("object model '" + name_ + "': no attribute is of type '" + std::string(data_type) + "'");
   for (const char letter : "codec " + std::string(data_type) + " " + codec->name() + "\n") hash_ = (hash_ ^ static_cast<unsigned char>(letter)) * 1099511628211ull;
 }

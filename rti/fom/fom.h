@@ -11,6 +11,7 @@
 
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/attribute_set.h"
+#include "rti/fom/quantised_codec.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
 
@@ -33,6 +34,7 @@ struct Attribute {
   Order order = Order::receive;
   bool has_dimensions = false;        ///< regions apply to it
   std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
+  std::shared_ptr<const QuantisedCodec> baselines;  ///< not null: periodic state, which travels as differences to acknowledged baselines (rti/baselines)
 };
 
 struct Parameter {

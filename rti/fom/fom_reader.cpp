@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "rti/fom/fom.h"
+#include "rti/fom/quantisation_reader.h"
 
 namespace rink::rti {
 
@@ -57,6 +58,7 @@ class FomReader {
   void read_object_class(const Node& node, ObjectClassHandle parent);
   Attribute read_attribute(const Node& node, const ObjectClass& owner);
   void read_interaction_class(const Node& node, InteractionClassHandle parent);
+  void quantise(Attribute& attribute, bool is_periodic);
   Parameter read_parameter(const Node& node, const InteractionClass& owner);
   Transportation transportation(const Node& node) const;
   Order order(const Node& node) const;
@@ -68,6 +70,7 @@ class FomReader {
   std::map<std::string, Node> declared_types_;
   std::map<std::string, Size> sizes_;
   std::set<std::string> being_sized_;
+  std::map<std::string, std::shared_ptr<const QuantisedCodec>> codecs_;
   Fom fom_;
 };
 
@@ -231,7 +234,23 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
     if (!fom_.dimension(name)) fail(dimension, path(node) + " has the unknown dimension '" + name + "'; allowed are those in <dimensions>");
     attribute.has_dimensions = true;
   }
+  quantise(attribute, text_or(node, "updateType", "NA") == "Periodic");
   return attribute;
+}
+
+/// State that is told periodically travels as differences to baselines, unless some of it is not quantised.
+void FomReader::quantise(Attribute& attribute, bool is_periodic) {
+  if (!attribute.size) return;
+  try {
+    const auto known = codecs_.find(attribute.data_type);
+    const auto size_of_type = [this](const std::string& type) { return size_of(type, {}).value_or(0); };
+    const auto codec = known != codecs_.end() ? known->second : QuantisationReader::codec_of(attribute.data_type, declared_types_, size_of_type);
+    codecs_[attribute.data_type] = codec;
+    attribute.codec = codec;
+    if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;
+  } catch (const QuantisationError& error) {
+    fail(error.node, error.what);
+  }
 }
 
 void FomReader::read_interaction_class(const Node& node, InteractionClassHandle parent) {
@@ -285,6 +304,11 @@ std::uint64_t FomReader::hash() const {
     for (const Parameter& parameter : each.parameters) mix_member(parameter);
   }
   for (const std::string& dimension : fom_.dimensions_) mix("dimension " + dimension);
+  for (const auto& [type, codec] : codecs_)
+    if (codec) mix("codec " + type + " " + codec->name());
+  for (const ObjectClass& each : fom_.object_classes_)
+    for (const Attribute& attribute : each.attributes)
+      if (attribute.baselines) mix("baselines " + each.name + " " + attribute.name);
   return value;
 }
 

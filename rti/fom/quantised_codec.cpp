@@ -1,0 +1,135 @@
+// Rounds, packs and checks; what a field is in memory matters only here.
+#include "rti/fom/quantised_codec.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace rink::rti {
+
+namespace {
+
+using Form = QuantisedField::Form;
+
+template <class Number>
+double load_as(const QuantisedField& field, Bytes at) {
+  std::array<std::byte, sizeof(Number)> bytes;
+  std::copy_n(at.begin(), sizeof(Number), bytes.begin());
+  if (field.is_big_endian) std::ranges::reverse(bytes);
+  return static_cast<double>(std::bit_cast<Number>(bytes));
+}
+
+double load(const QuantisedField& field, Bytes at) {
+  switch (field.form) {
+    case Form::float32: return load_as<float>(field, at);
+    case Form::float64: return load_as<double>(field, at);
+    case Form::integer16: return load_as<std::int16_t>(field, at);
+    case Form::integer32: return load_as<std::int32_t>(field, at);
+    case Form::octets: break;
+  }
+  return 0.0;
+}
+
+template <class Number>
+void append_as(const QuantisedField& field, double number, std::vector<std::byte>& value) {
+  auto bytes = std::bit_cast<std::array<std::byte, sizeof(Number)>>(static_cast<Number>(number));
+  if (field.is_big_endian) std::ranges::reverse(bytes);
+  value.insert(value.end(), bytes.begin(), bytes.end());
+}
+
+void append(const QuantisedField& field, double number, std::vector<std::byte>& value) {
+  switch (field.form) {
+    case Form::float32: return append_as<float>(field, number, value);
+    case Form::float64: return append_as<double>(field, number, value);
+    case Form::integer16: return append_as<std::int16_t>(field, number, value);
+    case Form::integer32: return append_as<std::int32_t>(field, number, value);
+    case Form::octets: break;
+  }
+  assert(false && "octets have no grid");
+}
+
+void write_octets(BitWriter& bits, Bytes octets) {
+  for (const std::byte octet : octets) bits.bits(octet, 8);
+}
+
+bool read_octets(BitReader& bits, std::size_t size, std::vector<std::byte>& value) {
+  for (std::size_t i = 0; i < size; ++i)
+    if (!bits.bits(value.emplace_back(), 8)) return false;
+  return true;
+}
+
+}  // namespace
+
+QuantisedCodec::QuantisedCodec(std::vector<QuantisedField> fields) : fields_(std::move(fields)) {
+  assert(fields_.size() <= field_max);
+  for (const QuantisedField& field : fields_) {
+    value_size_ += field.size;
+    packed_bits_ += field.grid ? field.grid->bits : 8 * field.size;
+    is_all_quantised_ = is_all_quantised_ && field.grid.has_value();
+  }
+}
+
+std::string QuantisedCodec::name() const {
+  std::string text = "rink-quantised-1";
+  for (const QuantisedField& field : fields_) {
+    text += " " + std::to_string(static_cast<int>(field.form)) + (field.is_big_endian ? "b" : "l") + std::to_string(field.size);
+    if (field.grid) text += ":" + std::to_string(std::ilogb(field.grid->step)) + ":" + std::to_string(field.grid->first) + ":" + std::to_string(field.grid->last);
+    if (field.rate_of) text += "@" + std::to_string(*field.rate_of);
+  }
+  return text;
+}
+
+bool QuantisedCodec::is_in_range(Bytes value) const {
+  for (const QuantisedField& field : fields_) {
+    if (field.grid && !field.grid->contains(load(field, value))) return false;
+    value = value.subspan(field.size);
+  }
+  return true;
+}
+
+void QuantisedCodec::encode(Bytes value, double, std::vector<std::byte>& coded) const {
+  BitWriter bits(coded);
+  const bool is_full = !is_in_range(value);
+  bits.flag(is_full);
+  if (is_full) return write_octets(bits, value);
+  for (const QuantisedField& field : fields_) {
+    if (field.grid) bits.quantised(load(field, value), *field.grid);
+    else write_octets(bits, value.first(field.size));
+    value = value.subspan(field.size);
+  }
+}
+
+std::optional<std::size_t> QuantisedCodec::size(Bytes coded) const {
+  if (coded.empty()) return std::nullopt;
+  return (coded_bits((coded[0] & std::byte{1}) != std::byte{0}) + 7) / 8;
+}
+
+bool QuantisedCodec::decode(BitReader& bits, std::vector<std::byte>& value) const {
+  bool is_full = false;
+  if (!bits.flag(is_full)) return false;
+  if (is_full) return read_octets(bits, value_size_, value);
+  for (const QuantisedField& field : fields_) {
+    double number = 0.0;
+    if (!(field.grid ? bits.quantised(number, *field.grid) : read_octets(bits, field.size, value))) return false;
+    if (field.grid) append(field, number, value);
+  }
+  return true;
+}
+
+bool QuantisedCodec::decode(Bytes coded, double, std::vector<std::byte>& value) const {
+  BitReader bits(coded);
+  return decode(bits, value) && bits.finish() && bits.left() == 0;
+}
+
+bool QuantisedCodec::read_counts(Bytes coded, Counts& counts) const {
+  assert(is_all_quantised_);
+  BitReader bits(coded);
+  bool is_full = false;
+  return bits.flag(is_full) && !is_full && exchange_counts(bits, counts);
+}
+
+void QuantisedCodec::append_value(const Counts& counts, std::vector<std::byte>& value) const {
+  for (std::size_t i = 0; i < fields_.size(); ++i) append(fields_[i], fields_[i].grid->value(static_cast<std::uint64_t>(counts[i])), value);
+}
+
+}  // namespace rink::rti
