@@ -34,8 +34,8 @@ std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
 
 }  // namespace
 
-FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings)
-    : parts_(std::make_unique<Parts>(fom, settings, filter_called(settings))) {}
+FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings, const FederationServices& services)
+    : parts_(std::make_unique<Parts>(fom, settings, services, filter_called(settings))) {}
 FederationExecution::~FederationExecution() = default;
 
 void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
@@ -45,8 +45,8 @@ void FederationExecution::advance_clock(double now) { parts_->advance_clock(now)
 
 void FederationExecution::match() {
   parts_->interest_.match();
-  parts_->counters_.scope_entries = parts_->interest_.entries();
-  parts_->counters_.scope_exits = parts_->interest_.exits();
+  parts_->counters_.scope_entries = parts_->interest_.counters().entries;
+  parts_->counters_.scope_exits = parts_->interest_.counters().exits;
 }
 
 void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
@@ -54,6 +54,7 @@ std::size_t FederationExecution::federate_count() const { return parts_->federat
 std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
 const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }
 const im::Filter& FederationExecution::filter() const { return parts_->interest_.filter(); }
+const DataDistribution& FederationExecution::distribution() const { return parts_->interest_; }
 
 bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
   const ObjectSlot slot = parts_->objects_.find(object);
@@ -70,14 +71,9 @@ void FederationExecution::list_scope(FederateHandle federate, std::vector<Object
 }
 
 void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {
-  for (std::uint32_t slot = 0; slot < parts_->federates_.size(); ++slot) {
-    if (!parts_->federates_[slot].is_joined) continue;
-    const FederateInterest& interest = parts_->interest_.of(slot);
-    for (const FederateInterest::Regional& each : interest.regionals) {
-      const FederateInterest::Region& region = interest.regions[each.region.value];
-      if (region.has_bounds) regions.push_back({parts_->federates_[slot].handle, region.bounds});
-    }
-  }
+  std::vector<RegionOfInterest> found;
+  parts_->interest_.list_regions_of_interest(found);
+  for (const RegionOfInterest& each : found) regions.push_back({parts_->federates_[each.federate].handle, each.bounds});
 }
 
 }  // namespace rink::rti

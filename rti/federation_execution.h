@@ -12,6 +12,7 @@
 #include "im/filter.h"
 #include "rti/ambassador.h"
 #include "rti/wire/bytes.h"
+#include "rti/federation_services.h"
 #include "rti/fom/fom.h"
 
 namespace rink::rti {
@@ -76,7 +77,7 @@ class Outlet {
 class FederationExecution {
  public:
   /// `fom` must outlive it. Throws std::invalid_argument naming the known filters if there is none called `settings.filter`.
-  FederationExecution(const Fom& fom, const FederationSettings& settings);
+  FederationExecution(const Fom& fom, const FederationSettings& settings, const FederationServices& services = {});
   ~FederationExecution();
   FederationExecution(const FederationExecution&) = delete;
   FederationExecution& operator=(const FederationExecution&) = delete;
@@ -101,6 +102,7 @@ class FederationExecution {
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   const FederationCounters& counters() const;
   const im::Filter& filter() const;
+  const DataDistribution& distribution() const;
 
  private:
   class Parts;

@@ -1,12 +1,29 @@
 // Who is connected, who has joined, who waits for whom.
 #include <algorithm>
 
+#include "rti/distribution/interest.h"
 #include "rti/federation_parts.h"
 
 namespace rink::rti {
 
-FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), settings_(settings), objects_(fom), ownership_(fom, objects_), interest_(fom, objects_, ownership_, std::move(filter)), interaction_subscribers_(fom.interaction_classes().size()) {}
+namespace {
+
+std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services, const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
+                                                  std::unique_ptr<im::Filter> filter) {
+  if (services.data_distribution) return services.data_distribution(fom, objects, ownership, std::move(filter));
+  return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
+}
+
+}  // namespace
+
+FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter)
+    : fom_(fom),
+      settings_(settings),
+      objects_(fom),
+      ownership_(fom, objects_),
+      distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
+      interest_(*distribution_),
+      interaction_subscribers_(fom.interaction_classes().size()) {}
 
 void FederationExecution::Parts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);

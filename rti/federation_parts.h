@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "rti/federation_execution.h"
-#include "rti/distribution/interest.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/federation_services.h"
 #include "rti/wire/message.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
@@ -17,7 +18,7 @@ namespace rink::rti {
 
 class FederationExecution::Parts {
  public:
-  Parts(const Fom& fom, const FederationSettings& settings, std::unique_ptr<im::Filter> filter);
+  Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter);
 
   /// A joined federate. Vectors by class are of fixed size.
   struct Federate {
@@ -78,13 +79,10 @@ class FederationExecution::Parts {
   Outcome take_frame(ConnectionId connection, Bytes frame);
   Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
   Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome publish_object_class(Federate& federate, Reader& reader);
   Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
   Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome modify_regions(std::uint32_t slot, Reader& reader);
-  Outcome associate_region(std::uint32_t slot, Reader& reader);
   Outcome register_object(std::uint32_t slot, Reader& reader);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   void delete_object(ObjectSlot object);
@@ -92,6 +90,23 @@ class FederationExecution::Parts {
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
+  void list_interaction_subscriber(std::uint32_t slot);
+  /// True if it subscribes to the class or a superclass without a region.
+  bool hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
+  /// `regions` are the sender's; none: the default region, which overlaps all.
+  Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions = {});
+
+  // Regions (federation_regions.cpp).
+  Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome create_region_over(std::uint32_t slot, Reader& reader);
+  Outcome modify_regions(std::uint32_t slot, Reader& reader);
+  Outcome modify_ranges(std::uint32_t slot, Reader& reader);
+  Outcome associate_region(std::uint32_t slot, Reader& reader);
+  Outcome associate_regions(std::uint32_t slot, Reader& reader);
+  Outcome take_regional_class(std::uint32_t slot, Reader& reader);
+  Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
+  Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
@@ -113,7 +128,8 @@ class FederationExecution::Parts {
   FederationSettings settings_;
   ObjectTable objects_;
   Ownership ownership_;
-  Interest interest_;
+  std::unique_ptr<DataDistribution> distribution_;
+  DataDistribution& interest_;  ///< the same
   UpdateRuns runs_;
   std::vector<Connection> connections_;  ///< by id
   std::vector<Federate> federates_;      ///< by slot
@@ -125,6 +141,7 @@ class FederationExecution::Parts {
   std::vector<SynchronizationPoint> points_;
   std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
   std::vector<Farewell> farewells_;
+  std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;
   double now_ = 0.0;
 

@@ -65,7 +65,13 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::create_region:
     case MessageKind::modify_regions:
     case MessageKind::associate_region:
-    case MessageKind::delete_region: return take_region(slot, kind, reader);
+    case MessageKind::delete_region:
+    case MessageKind::create_region_over:
+    case MessageKind::modify_ranges:
+    case MessageKind::regional_class:
+    case MessageKind::regional_interaction:
+    case MessageKind::associate_regions:
+    case MessageKind::interaction_within: return take_region(slot, kind, reader);
     case MessageKind::register_object:
     case MessageKind::delete_object:
     case MessageKind::stamp:
@@ -111,50 +117,23 @@ Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, Mess
     return std::nullopt;
   }
   federates_[slot].subscribed_interactions[message.interaction_class] = is_declared;
+  list_interaction_subscriber(slot);
+  return std::nullopt;
+}
+
+/// Those who subscribe to a class or a superclass, in whatever region.
+void FederationExecution::Parts::list_interaction_subscriber(std::uint32_t slot) {
   for (std::uint32_t i = 0; i < interaction_subscribers_.size(); ++i) {
     auto& subscribers = interaction_subscribers_[i];
     std::erase(subscribers, slot);
-    bool is_subscribed = false;
-    for (InteractionClassHandle each{i}; each; each = fom_.at(each).parent) is_subscribed |= federates_[slot].subscribed_interactions[each.value];
-    if (is_subscribed) subscribers.push_back(slot);
+    if (hears_everywhere(slot, static_cast<std::uint16_t>(i)) || interest_.subscribes_interaction(slot, static_cast<std::uint16_t>(i))) subscribers.push_back(slot);
   }
-  return std::nullopt;
 }
 
-Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::modify_regions) return modify_regions(slot, reader);
-  if (kind == MessageKind::associate_region) return associate_region(slot, reader);
-  CreateRegionMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  const RegionHandle region{message.region};
-  if (kind == MessageKind::create_region) return interest_.create_region(slot, region) ? Outcome() : Violation::unknown_name;
-  if (!interest_.has_region(slot, region)) return Violation::unknown_name;
-  interest_.delete_region(slot, region);
-  return std::nullopt;
-}
-
-Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& reader) {
-  ModifyRegionsMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  Reader records(message.records);
-  for (std::uint16_t i = 0; i < message.count; ++i) {
-    RegionBounds record;
-    if (!exchange(records, record)) return Violation::malformed;
-    if (!interest_.has_region(slot, record.region)) return Violation::unknown_name;
-    interest_.modify_region(slot, record.region, record.bounds);
-  }
-  return std::nullopt;
-}
-
-Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader& reader) {
-  AssociateRegionMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  const ObjectSlot object = objects_.find({message.object});
-  const RegionHandle region{message.region};
-  if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
-  if (objects_[object].owner != slot) return Violation::not_owned;
-  interest_.associate(slot, object, region);
-  return std::nullopt;
+bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
+  for (InteractionClassHandle each{interaction_class}; each; each = fom_.at(each).parent)
+    if (federates_[slot].subscribed_interactions[each.value]) return true;
+  return false;
 }
 
 Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
@@ -240,12 +219,17 @@ Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader&
   InteractionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  return deliver_interaction(slot, message);
+}
+
+Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions) {
   if (!federates_[slot].published_interactions[message.interaction_class]) return Violation::undeclared;
   ++counters_.interactions_received;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;
   for (const std::uint32_t receiver : interaction_subscribers_[message.interaction_class]) {
     if (receiver == slot || (only != FederateHandle::none && federates_[receiver].handle.value != only)) continue;
+    if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) && !interest_.hears(receiver, message.interaction_class, slot, regions)) continue;
     say(federates_[receiver].tail, message);
     counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;

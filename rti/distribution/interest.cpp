@@ -2,30 +2,38 @@
 #include "rti/distribution/interest.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "rti/wire/message.h"
 
 namespace rink::rti {
 
-Interest::Interest(const Fom& fom, ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)) {}
+Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
+    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)) {
+  const auto x = fom.dimension("X"), y = fom.dimension("Y");
+  if (!x || !y) return;
+  x_ = *x, y_ = *y;
+  plane_ = {x_, y_};
+}
 
 void Interest::add_federate(std::uint32_t federate) {
-  if (federate >= federates_.size()) federates_.resize(federate + 1);
-  federates_[federate] = std::make_unique<FederateInterest>();
-  FederateInterest& interest = *federates_[federate];
+  if (federate >= federates_.size()) {
+    federates_.resize(federate + 1);
+    told_.resize(federate + 1);
+  }
+  federates_[federate] = std::make_unique<DeclaredInterest>();
+  DeclaredInterest& interest = *federates_[federate];
+  told_[federate] = &interest;
   interest.federate = federate;
   interest.everywhere.declared.resize(fom_.object_classes().size());
   interest.everywhere.expanded = interest.by_class = interest.everywhere.declared;
 }
 
 void Interest::remove_federate(std::uint32_t federate) {
-  FederateInterest& interest = of(federate);
-  while (!interest.regionals.empty()) drop_regional(interest, interest.regionals.back().region);
-  for (const FederateInterest::Region& each : interest.regions)
-    while (!each.objects.empty()) associate(federate, each.objects.back(), {});
+  DeclaredInterest& interest = *federates_[federate];
+  for (std::uint32_t region = 0; region < interest.regions.size(); ++region)
+    if (interest.regions[region] != no_region) delete_region(federate, {region});
   federates_[federate].reset();
+  told_[federate] = nullptr;
 }
 
 void Interest::expand(ClassInterest& interest) const {
@@ -37,24 +45,72 @@ void Interest::expand(ClassInterest& interest) const {
 }
 
 bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) {
-  FederateInterest& interest = of(federate);
+  DeclaredInterest& interest = *federates_[federate];
   if (region && !has_region(federate, region)) return false;
-  ClassInterest& classes = region ? regional(interest, region).classes : interest.everywhere;
+  const RegionSlot slot = region ? slot_of(federate, region) : no_region;
+  ClassInterest& classes = region ? regional(interest, slot).classes : interest.everywhere;
   classes.declared[object_class] = attributes;
   expand(classes);
   interest.is_changed = true;
   const auto& declared = classes.declared;
-  if (region && std::all_of(declared.begin(), declared.end(), [](AttributeSet set) { return set.is_empty(); })) drop_regional(interest, region);
+  if (region && std::all_of(declared.begin(), declared.end(), [](AttributeSet set) { return set.is_empty(); })) drop_regional(interest, slot);
   return true;
 }
 
-FederateInterest::Regional& Interest::regional(FederateInterest& interest, RegionHandle region) {
-  for (FederateInterest::Regional& each : interest.regionals)
-    if (each.region == region) return each;
-  FederateInterest::Regional& added = interest.regionals.emplace_back();
-  added.region = region;
+AttributeSet Interest::subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const {
+  const DeclaredInterest& interest = *federates_[federate];
+  if (!region) return interest.everywhere.declared[object_class];
+  for (const Regional& each : interest.regionals)
+    if (each.region == slot_of(federate, region)) return each.classes.declared[object_class];
+  return {};
+}
+
+AttributeSet Interest::subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const {
+  const DeclaredInterest& interest = *federates_[federate];
+  AttributeSet set = interest.everywhere.expanded[object_class];
+  for (const Regional& each : interest.regionals) set = set | each.classes.expanded[object_class];
+  return set;
+}
+
+bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) {
+  if (!has_region(federate, region)) return false;
+  auto& interactions = federates_[federate]->interactions;
+  const RegionSlot slot = slot_of(federate, region);
+  std::erase_if(interactions, [&](const auto& each) { return each.interaction_class == interaction_class && each.region == slot; });
+  if (is_subscribed) interactions.push_back({interaction_class, slot});
+  return true;
+}
+
+bool Interest::subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const {
+  return std::ranges::any_of(federates_[federate]->interactions, [&](const auto& each) {
+    return fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class});
+  });
+}
+
+bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) {
+  for (const auto& each : federates_[federate]->interactions) {
+    if (!fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class})) continue;
+    for (const RegionHandle region : sent)
+      if (regions_overlap(regions_[slot_of(sender, region)], regions_[each.region])) return true;
+  }
+  return false;
+}
+
+Interest::Regional& Interest::regional(DeclaredInterest& interest, RegionSlot slot) {
+  for (Regional& each : interest.regionals)
+    if (each.region == slot) return each;
+  DistributedRegion& region = regions_[slot];
+  ++region.subscription_count;
+  Regional& added = interest.regionals.emplace_back();
+  added.region = slot;
+  added.is_placed = region.is_placed;
+  added.is_planar = region.is_planar;
   added.classes.declared.resize(fom_.object_classes().size());
   added.classes.expanded = added.classes.declared;
+  if (!region.is_placed) {
+    ++unplaced_subscription_count_;
+    return added;
+  }
   if (free_subscribers_.empty()) {
     free_subscribers_.push_back(static_cast<im::Subscriber>(subscribers_.size()));
     subscribers_.emplace_back();
@@ -62,103 +118,84 @@ FederateInterest::Regional& Interest::regional(FederateInterest& interest, Regio
   added.subscriber = free_subscribers_.back();
   free_subscribers_.pop_back();
   subscribers_[added.subscriber] = interest.federate;
-  const FederateInterest::Region& bounds = interest.regions[region.value];
-  if (bounds.has_bounds) filter_->set_subscription_region(added.subscriber, bounds.bounds);
+  if (region.is_committed) filter_->set_subscription_region(added.subscriber, region.plane);
   return added;
 }
 
-FederateInterest::Regional* Interest::find(FederateInterest& interest, im::Subscriber subscriber) {
-  for (FederateInterest::Regional& each : interest.regionals)
-    if (each.subscriber == subscriber) return &each;
+Interest::Regional* Interest::find(DeclaredInterest& interest, im::Subscriber subscriber) {
+  for (Regional& each : interest.regionals)
+    if (each.is_placed && each.subscriber == subscriber) return &each;
   return nullptr;
 }
 
-void Interest::drop_regional(FederateInterest& interest, RegionHandle region) {
-  const auto found = std::find_if(interest.regionals.begin(), interest.regionals.end(), [&](const auto& each) { return each.region == region; });
+void Interest::drop_regional(DeclaredInterest& interest, RegionSlot slot) {
+  const auto found = std::ranges::find(interest.regionals, slot, &Regional::region);
   if (found == interest.regionals.end()) return;
-  filter_->remove_subscriber(found->subscriber);
-  free_subscribers_.push_back(found->subscriber);
+  --regions_[slot].subscription_count;
+  if (found->is_placed) {
+    filter_->remove_subscriber(found->subscriber);
+    free_subscribers_.push_back(found->subscriber);
+  } else {
+    --unplaced_subscription_count_;
+  }
   interest.regionals.erase(found);
   interest.is_changed = true;
 }
 
-bool Interest::has_region(std::uint32_t federate, RegionHandle region) const {
-  const auto& regions = of(federate).regions;
-  return region.value < regions.size() && regions[region.value].exists;
-}
-
-bool Interest::create_region(std::uint32_t federate, RegionHandle region) {
-  auto& regions = of(federate).regions;
-  if (region.value > regions.size() || has_region(federate, region)) return false;
-  if (region.value == regions.size()) regions.emplace_back();
-  regions[region.value].exists = true;
-  return true;
-}
-
-void Interest::modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) {
-  FederateInterest& interest = of(federate);
-  FederateInterest::Region& changed = interest.regions[region.value];
-  changed.has_bounds = true;
-  changed.bounds = bounds;
-  for (const ObjectSlot slot : changed.objects) {
-    filter_->set_update_region(slot, bounds);
-    objects_[slot].is_filtered = true;
+void Interest::list_regions_of_interest(std::vector<RegionOfInterest>& regions) const {
+  for (const auto& interest : federates_) {
+    if (!interest) continue;
+    for (const Regional& each : interest->regionals) {
+      const DistributedRegion& region = regions_[each.region];
+      if (region.is_placed && region.is_committed) regions.push_back({interest->federate, region.plane});
+    }
   }
-  for (const FederateInterest::Regional& each : interest.regionals)
-    if (each.region == region) filter_->set_subscription_region(each.subscriber, bounds);
 }
 
-void Interest::delete_region(std::uint32_t federate, RegionHandle region) {
-  FederateInterest& interest = of(federate);
-  drop_regional(interest, region);
-  while (!interest.regions[region.value].objects.empty()) associate(federate, interest.regions[region.value].objects.back(), {});
-  interest.regions[region.value] = {};
-}
-
-void Interest::leave_region(ObjectSlot slot) {
-  Object& object = objects_[slot];
-  if (!object.region) return;
-  auto& objects = of(object.region_federate).regions[object.region.value].objects;
-  objects.erase(std::find(objects.begin(), objects.end(), slot));
-  object.region = {};
-}
-
-void Interest::associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region) {
-  leave_region(slot);
-  Object& object = objects_[slot];
-  object.region = region;
-  object.region_federate = federate;
+void Interest::object_registered(ObjectSlot slot) {
+  if (slot >= uses_.size()) uses_.resize(slot + 1);
   changed_objects_.push_back(slot);
-  if (!region) return forget(slot);
-  FederateInterest::Region& joined = of(federate).regions[region.value];
-  joined.objects.push_back(slot);
-  if (!joined.has_bounds) return forget(slot);
-  filter_->set_update_region(slot, joined.bounds);
-  object.is_filtered = true;
-}
-
-void Interest::forget(ObjectSlot slot) {
-  if (!objects_[slot].is_filtered) return;
-  objects_[slot].is_filtered = false;
-  filter_->remove_entity(slot);
-  for (const auto& interest : federates_)
-    if (interest)
-      for (FederateInterest::Regional& each : interest->regionals) each.inside.erase(slot);
 }
 
 void Interest::object_deleted(ObjectSlot slot) {
-  leave_region(slot);
-  forget(slot);
+  if (uses_[slot].region != no_region) set_associations(slot, {});
   for (const auto& interest : federates_)
     if (interest) interest->in_scope.erase(slot);
 }
 
-AttributeSet Interest::wanted(const FederateInterest& interest, ObjectSlot slot) const {
+bool Interest::overlaps(const Regional& regional, RegionSlot update) {
+  const DistributedRegion& region = regions_[update];
+  if (!regional.is_placed || !region.is_placed) return regions_overlap(region, regions_[regional.region]);
+  if (!regional.inside.contains(region.entity)) return false;
+  if (regional.is_planar || region.is_planar) return true;
+  const DistributedRegion& subscribed = regions_[regional.region];
+  return ranges_overlap(region, subscribed, DimensionSet(region.dimensions.bits & subscribed.dimensions.bits & ~plane_.bits));
+}
+
+/// Those of `attributes` that the regional subscription gets of an object that uses several regions.
+AttributeSet Interest::covered(const Regional& regional, ObjectSlot object, AttributeSet attributes) {
+  AttributeSet placed, inside;
+  for (const Association& each : associations_.at(object)) {
+    placed = placed | each.attributes;
+    if (!(each.attributes & attributes).is_empty() && overlaps(regional, each.region)) inside = inside | each.attributes;
+  }
+  return AttributeSet(attributes.bits & (inside.bits | ~placed.bits));
+}
+
+AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
   const Object& object = objects_[slot];
   if (!object.is_alive || object.owner == interest.federate) return {};
   AttributeSet set = interest.everywhere.expanded[object.object_class];
-  for (const FederateInterest::Regional& each : interest.regionals)
-    if (!object.region || each.inside.contains(slot)) set = set | each.classes.expanded[object.object_class];
+  const Use& used = uses_[slot];
+  for (const Regional& each : interest.regionals) {
+    const AttributeSet named = each.classes.expanded[object.object_class];
+    if (used.region == several) {
+      set = set | covered(each, slot, named);
+      continue;
+    }
+    const bool is_heard = used.region == no_region || (used.entity != no_entity && each.is_placed ? each.inside.contains(used.entity) : overlaps(each, used.region));
+    if (is_heard) set = set | named;
+  }
   return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot) : set;
 }
 
@@ -166,6 +203,7 @@ void Interest::match() {
   take_filter_changes();
   for (const auto& interest : federates_)
     if (interest && interest->is_changed) reconsider_all(*interest);
+  take_changed_regions();
   for (const ObjectSlot slot : changed_objects_)
     for (const auto& interest : federates_)
       if (interest) reconsider(*interest, slot);
@@ -176,19 +214,50 @@ void Interest::take_filter_changes() {
   // Memberships first, all of them: what a federate wants of an object depends on several regions.
   const std::span<const im::Change> changes = filter_->match();
   for (const im::Change& each : changes) {
-    FederateInterest::Regional* regional = find(of(subscribers_[each.subscriber]), each.subscriber);
+    Regional* regional = find(*federates_[subscribers_[each.subscriber]], each.subscriber);
     if (each.transition == im::Transition::entered) regional->inside.insert(each.entity);
     else regional->inside.erase(each.entity);
   }
   for (const im::Change& each : changes) {
-    FederateInterest& interest = of(subscribers_[each.subscriber]);
-    if (!interest.is_changed) reconsider(interest, each.entity);
+    DeclaredInterest& interest = *federates_[subscribers_[each.subscriber]];
+    if (interest.is_changed) continue;
+    for (const ObjectSlot slot : regions_[region_of_entity_[each.entity]].objects) reconsider(interest, slot);
   }
 }
 
-bool Interest::uniform_classes(const FederateInterest& interest, std::vector<AttributeSet>& by_class) const {
+/// Those that changed in a way that the filter can't know: in other dimensions than the plane's, or against a region that lacks one of these.
+void Interest::take_changed_regions() {
+  for (const RegionSlot slot : changed_regions_) {
+    DistributedRegion& region = regions_[slot];
+    region.is_changed = false;
+    changed_objects_.insert(changed_objects_.end(), region.objects.begin(), region.objects.end());
+    if (region.subscription_count == 0) continue;
+    DeclaredInterest& interest = *federates_[region.federate];
+    for (const Regional& each : interest.regionals)
+      if (each.region == slot) reconsider_around(interest, each);
+  }
+  changed_regions_.clear();
+}
+
+/// All that may have come or gone by a change of the subscription's region in other dimensions: what the filter lets through and what it doesn't know.
+void Interest::reconsider_around(DeclaredInterest& interest, const Regional& regional) {
+  if (!regional.is_placed) {
+    for (ObjectSlot slot = 0; slot < uses_.size(); ++slot)
+      if (uses_[slot].region != no_region) reconsider(interest, slot);
+    return;
+  }
+  if (!regional.is_planar)
+    regional.inside.for_each([&](im::Entity entity) {
+      for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects) reconsider(interest, slot);
+    });
+  for (const RegionSlot region : unplaced_)
+    for (const ObjectSlot slot : regions_[region].objects) reconsider(interest, slot);
+}
+
+bool Interest::uniform_classes(const DeclaredInterest& interest, std::vector<AttributeSet>& by_class) const {
+  if (!associations_.empty() && !interest.regionals.empty()) return false;
   by_class = interest.everywhere.expanded;
-  for (const FederateInterest::Regional& each : interest.regionals)
+  for (const Regional& each : interest.regionals)
     for (std::size_t i = 0; i < by_class.size(); ++i) {
       const AttributeSet set = each.classes.expanded[i];
       if (by_class[i].is_empty()) by_class[i] = set;
@@ -197,7 +266,7 @@ bool Interest::uniform_classes(const FederateInterest& interest, std::vector<Att
   return true;
 }
 
-void Interest::reconsider_all(FederateInterest& interest) {
+void Interest::reconsider_all(DeclaredInterest& interest) {
   interest.is_changed = false;
   std::vector<AttributeSet> by_class, by_object;
   const bool is_uniform = uniform_classes(interest, by_class);
@@ -213,7 +282,8 @@ void Interest::reconsider_all(FederateInterest& interest) {
   interest.by_object = std::move(by_object);
 }
 
-void Interest::reconsider(FederateInterest& interest, ObjectSlot slot) {
+void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
+  ++counters_.pairs_reconsidered;
   const AttributeSet was = interest.told(slot, objects_[slot].object_class), is = wanted(interest, slot);
   settle(interest, slot, was, is);
   if (interest.is_uniform) return;
@@ -226,11 +296,11 @@ void Interest::settle(FederateInterest& interest, ObjectSlot slot, AttributeSet 
   if (was.is_empty()) {
     interest.in_scope.insert(slot);
     interest.events.push_back({slot, im::Transition::entered});
-    ++entries_;
+    ++counters_.entries;
   } else if (is.is_empty()) {
     interest.in_scope.erase(slot);
     interest.events.push_back({slot, im::Transition::left});
-    ++exits_;
+    ++counters_.exits;
   }
   if (!was.includes(is)) {
     interest.fresh.insert(slot);

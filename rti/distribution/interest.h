@@ -1,121 +1,162 @@
-// Data distribution: who hears of which object, decided once per match from subscriptions, regions and the filter.
+// The RTI's own data distribution: subscriptions, regions over any dimensions, and a filter that decides in the plane of X and Y.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <span>
-#include <string>
+#include <unordered_map>
 #include <vector>
 
-#include "im/filter.h"
-#include "rti/objects/bitmap.h"
-#include "rti/objects/object_table.h"
+#include "rti/distribution/data_distribution.h"
 #include "rti/ownership/ownership.h"
 
 namespace rink::rti {
+
+/// Number of a region among those of all federates; used again after it is deleted.
+using RegionSlot = std::uint32_t;
+inline constexpr RegionSlot no_region = 0xffffffffu;
 
 /// The attributes of each class that one subscription names, as declared and with what subclasses inherit.
 struct ClassInterest {
   std::vector<AttributeSet> declared, expanded;  ///< by class
 };
 
-/// A change that a federate has not been told yet.
-struct ScopeEvent {
-  ObjectSlot slot;
-  im::Transition transition;
+/// A region as it was last committed, and who uses it for updates. Over X and Y the filter knows it; other dimensions are compared one by one, for pairs that the filter lets through
+/// or, where one of two regions lacks X or Y, for all. The rejected alternative, filters of more dimensions, would make the common plane slower for a case in which the plane leaves few pairs.
+struct DistributedRegion {
+  bool exists = false, is_committed = false;
+  bool is_placed = false;                    ///< over both X and Y: the filter's business
+  bool is_planar = false;                    ///< over nothing else: the filter's business alone
+  bool is_changed = false;                   ///< since the last match, in a way that the filter doesn't know
+  std::uint32_t federate = 0;
+  im::Entity entity = 0;                     ///< the filter's number, if placed and used for updates
+  DimensionSet dimensions;
+  im::Region plane;
+  std::vector<Range> ranges;                 ///< by rank of the dimension; empty if planar
+  std::vector<ObjectSlot> objects;           ///< that use it for updates, each once for every association
+  std::uint32_t subscription_count = 0;      ///< to object classes or interactions
 };
 
-/// What one federate wants and what it is told.
-struct FederateInterest {
+/// What one federate declared; what it is told is its base.
+struct DeclaredInterest : FederateInterest {
   struct Regional {
-    RegionHandle region;
-    im::Subscriber subscriber = 0;  ///< the filter's number
+    RegionSlot region = no_region;
+    im::Subscriber subscriber = 0;  ///< the filter's number, if placed
+    bool is_placed = false, is_planar = false;
     ClassInterest classes;
-    Bitmap inside;                  ///< objects whose region overlaps, as of the last match
+    Bitmap inside;                  ///< entities whose region overlaps in the plane, as of the last match
   };
-  struct Region {
-    bool exists = false, has_bounds = false;
-    im::Region bounds;
-    std::vector<ObjectSlot> objects;  ///< those that use it for updates
+  struct InteractionRegion {
+    std::uint16_t interaction_class = 0;
+    RegionSlot region = no_region;
   };
-  std::uint32_t federate = 0;
   ClassInterest everywhere;
   std::vector<Regional> regionals;
-  std::vector<Region> regions;          ///< by handle
+  std::vector<InteractionRegion> interactions;
+  std::vector<RegionSlot> regions;      ///< by handle
   bool is_changed = false;              ///< subscriptions differ from those of the last match
-
-  Bitmap known;                         ///< discovered and not removed
-  Bitmap in_scope;                      ///< of the last match
-  Bitmap fresh;                         ///< came into scope since the last flush: the whole state is due
-  bool has_fresh = false;
-  std::vector<ScopeEvent> events;       ///< since the last flush
-  bool is_uniform = true;               ///< all of a class's objects in scope have the same attributes: `by_class`; else `by_object`
-  std::vector<AttributeSet> by_class, by_object;
-
-  /// What it is told of an object.
-  AttributeSet told(ObjectSlot slot, std::uint16_t object_class) const {
-    if (!in_scope.contains(slot)) return {};
-    return is_uniform ? by_class[object_class] : by_object[slot];
-  }
 };
 
-/// Federates are dense slots, as in the federation execution.
-class Interest {
+/// One region per object and one region over X and Y per subscription take the short way: one call of the filter when it moves, one bit when it is asked for.
+class Interest final : public DataDistribution {
  public:
-  Interest(const Fom& fom, ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter);
+  Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter);
 
-  void add_federate(std::uint32_t federate);
-  /// What it owned must be gone or have another owner; objects that still use its regions return to the default region.
-  void remove_federate(std::uint32_t federate);
-  FederateInterest& of(std::uint32_t federate) { return *federates_[federate]; }
-  const FederateInterest& of(std::uint32_t federate) const { return *federates_[federate]; }
+  void add_federate(std::uint32_t federate) override;
+  void remove_federate(std::uint32_t federate) override;
 
-  /// False if the region does not exist.
-  bool subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region);
+  bool subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) override;
+  AttributeSet subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const override;
+  AttributeSet subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const override;
+  bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) override;
+  bool subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const override;
+  bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) override;
 
-  bool has_region(std::uint32_t federate, RegionHandle region) const;
-  /// False if the handle is in use or leaves a gap.
-  bool create_region(std::uint32_t federate, RegionHandle region);
-  void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds);
-  void delete_region(std::uint32_t federate, RegionHandle region);
-  /// `federate` is whose region it is, and should own what the region is for.
-  void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region);
+  bool has_region(std::uint32_t federate, RegionHandle region) const override;
+  bool create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) override;
+  DimensionSet dimensions(std::uint32_t federate, RegionHandle region) const override { return regions_[slot_of(federate, region)].dimensions; }
+  bool is_planar(std::uint32_t federate, RegionHandle region) const override { return regions_[slot_of(federate, region)].is_planar; }
+  void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) override;
+  void modify_region(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges) override;
+  void delete_region(std::uint32_t federate, RegionHandle region) override;
 
-  void object_registered(ObjectSlot slot) { changed_objects_.push_back(slot); }
-  /// Some of its attributes have another owner than at the last match. Its region stays until the new owner associates its own, or its maker deletes it or leaves:
-  /// falling back to the default region meanwhile would show every body that is handed over to everybody.
-  void owner_changed(ObjectSlot slot) { changed_objects_.push_back(slot); }
-  /// Nobody hears of it any more; who knew it still has it in `known`.
-  void object_deleted(ObjectSlot slot);
+  void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region) override;
+  void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region, AttributeSet attributes) override;
+  void disassociate(std::uint32_t federate, ObjectSlot slot, RegionHandle region, AttributeSet attributes) override;
+  AttributeSet overlapping(std::uint32_t federate, RegionHandle region, ObjectSlot slot, AttributeSet attributes) override;
 
-  void match();
-  const im::Filter& filter() const { return *filter_; }
-  std::uint64_t entries() const { return entries_; }
-  std::uint64_t exits() const { return exits_; }
+  void object_registered(ObjectSlot slot) override;
+  void object_deleted(ObjectSlot slot) override;
+  void owner_changed(ObjectSlot slot) override { changed_objects_.push_back(slot); }
+
+  void match() override;
+  const DistributionCounters& counters() const override { return counters_; }
+  void list_regions_of_interest(std::vector<RegionOfInterest>& regions) const override;
+  const im::Filter& filter() const override { return *filter_; }
 
  private:
-  FederateInterest::Regional& regional(FederateInterest& interest, RegionHandle region);
-  FederateInterest::Regional* find(FederateInterest& interest, im::Subscriber subscriber);
-  void drop_regional(FederateInterest& interest, RegionHandle region);
+  using Regional = DeclaredInterest::Regional;
+  /// Attributes of an object that use a region.
+  struct Association {
+    RegionSlot region = no_region;
+    AttributeSet attributes;
+  };
+  /// What an object uses. The entity spares those that use one region over the plane alone, nearly all, a look at the region.
+  struct Use {
+    RegionSlot region = no_region;  ///< or none, or `several`
+    im::Entity entity = no_entity;  ///< if it is planar
+  };
+  static constexpr RegionSlot several = no_region - 1;
+  static constexpr im::Entity no_entity = 0xffffffffu;
+
+  // Regions and who uses them (interest_regions.cpp).
+  RegionSlot slot_of(std::uint32_t federate, RegionHandle region) const { return federates_[federate]->regions[region.value]; }
+  RegionSlot take_region_slot();
+  void tell_filter(const DistributedRegion& region, RegionSlot slot);
+  void take_entity(RegionSlot slot);
+  void free_entity(RegionSlot slot);
+  void use(RegionSlot region, ObjectSlot object);
+  void stop_using(RegionSlot region, ObjectSlot object);
+  std::vector<Association> associations_of(ObjectSlot object) const;
+  void set_associations(ObjectSlot object, std::vector<Association> associations);
+  void mark_changed(RegionSlot slot);
+  bool ranges_overlap(const DistributedRegion& a, const DistributedRegion& b, DimensionSet dimensions);
+  bool regions_overlap(const DistributedRegion& a, const DistributedRegion& b);
+  Range range(const DistributedRegion& region, DimensionHandle dimension) const;
+
+  // Subscriptions and what follows from them (interest.cpp).
+  Regional& regional(DeclaredInterest& interest, RegionSlot region);
+  Regional* find(DeclaredInterest& interest, im::Subscriber subscriber);
+  void drop_regional(DeclaredInterest& interest, RegionSlot region);
   void expand(ClassInterest& interest) const;
-  void leave_region(ObjectSlot slot);
-  void forget(ObjectSlot slot);
-  AttributeSet wanted(const FederateInterest& interest, ObjectSlot slot) const;
+  bool overlaps(const Regional& regional, RegionSlot update);
+  AttributeSet covered(const Regional& regional, ObjectSlot object, AttributeSet attributes);
+  AttributeSet wanted(const DeclaredInterest& interest, ObjectSlot slot);
   void take_filter_changes();
-  void reconsider_all(FederateInterest& interest);
-  void reconsider(FederateInterest& interest, ObjectSlot slot);
+  void take_changed_regions();
+  void reconsider_around(DeclaredInterest& interest, const Regional& regional);
+  void reconsider_all(DeclaredInterest& interest);
+  void reconsider(DeclaredInterest& interest, ObjectSlot slot);
   void settle(FederateInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is);
-  bool uniform_classes(const FederateInterest& interest, std::vector<AttributeSet>& by_class) const;
+  bool uniform_classes(const DeclaredInterest& interest, std::vector<AttributeSet>& by_class) const;
 
   const Fom& fom_;
-  ObjectTable& objects_;
+  const ObjectTable& objects_;
   const Ownership& ownership_;
   std::unique_ptr<im::Filter> filter_;
-  std::vector<std::unique_ptr<FederateInterest>> federates_;  ///< by federate slot; null where nobody is
-  std::vector<std::uint32_t> subscribers_;                    ///< federate slot, by the filter's number
+  DimensionHandle x_, y_;                                        ///< if the model has both
+  DimensionSet plane_;                                           ///< of these
+  std::vector<std::unique_ptr<DeclaredInterest>> federates_;     ///< by federate slot; null where nobody is
+  std::vector<DistributedRegion> regions_;                       ///< by slot
+  std::vector<RegionSlot> free_regions_, changed_regions_, unplaced_;  ///< `unplaced_`: used for updates, and lacks X or Y
+  std::vector<RegionSlot> region_of_entity_;
+  std::vector<im::Entity> free_entities_;
+  std::uint32_t unplaced_subscription_count_ = 0;
+  std::vector<std::uint32_t> subscribers_;                       ///< federate slot, by the filter's number
   std::vector<im::Subscriber> free_subscribers_;
+  std::vector<Use> uses_;                                        ///< by object
+  std::unordered_map<ObjectSlot, std::vector<Association>> associations_;  ///< of objects that use `several`
   std::vector<ObjectSlot> changed_objects_;
-  std::uint64_t entries_ = 0, exits_ = 0;
+  DistributionCounters counters_;
 };
 
 }  // namespace rink::rti

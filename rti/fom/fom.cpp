@@ -73,8 +73,8 @@ std::optional<ParameterHandle> Fom::parameter(InteractionClassHandle interaction
 }
 
 std::optional<DimensionHandle> Fom::dimension(std::string_view name) const {
-  const auto found = std::find(dimensions_.begin(), dimensions_.end(), name);
-  return found == dimensions_.end() ? std::nullopt : std::optional(DimensionHandle{static_cast<std::uint32_t>(found - dimensions_.begin())});
+  const auto index = find_named(dimensions_, name);
+  return index ? std::optional(DimensionHandle{*index}) : std::nullopt;
 }
 
 AttributeSet Fom::attributes(ObjectClassHandle handle) const {

@@ -11,6 +11,7 @@
 
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/attribute_set.h"
+#include "rti/fom/dimension_set.h"
 #include "rti/fom/quantised_codec.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
@@ -32,7 +33,7 @@ struct Attribute {
   std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
-  bool has_dimensions = false;        ///< regions apply to it
+  DimensionSet dimensions;            ///< those over which a region of it may be
   std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
   std::shared_ptr<const QuantisedCodec> baselines;  ///< not null: periodic state, which travels as differences to acknowledged baselines (rti/baselines)
 };
@@ -55,6 +56,14 @@ struct InteractionClass {
   std::vector<Parameter> parameters;  ///< inherited ones first
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
+  DimensionSet dimensions;
+};
+
+/// One with an upper bound is the standard's: ranges are [lower, upper) over the integers from 0 to the bound. One without is measured: closed ranges of doubles in the unit of its
+/// data type, not normalised; so are X and Y [m], over which filters decide.
+struct Dimension {
+  std::string name;
+  std::optional<std::uint32_t> upper_bound;
 };
 
 /// Immutable once loaded and given its codecs; handles are indices into its arrays, equal for all who loaded an equal model.
@@ -71,7 +80,7 @@ class Fom {
   const std::string& name() const { return name_; }
   const std::vector<ObjectClass>& object_classes() const { return object_classes_; }
   const std::vector<InteractionClass>& interaction_classes() const { return interaction_classes_; }
-  const std::vector<std::string>& dimensions() const { return dimensions_; }
+  const std::vector<Dimension>& dimensions() const { return dimensions_; }
 
   /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the root ("HLAobjectRoot.Entity").
   /// Nothing if there is none, or several.
@@ -84,6 +93,7 @@ class Fom {
   /// The handle must name a class of this model.
   const ObjectClass& at(ObjectClassHandle handle) const { return object_classes_[handle.value]; }
   const InteractionClass& at(InteractionClassHandle handle) const { return interaction_classes_[handle.value]; }
+  const Dimension& at(DimensionHandle handle) const { return dimensions_[handle.value]; }
   /// All attributes of a class.
   AttributeSet attributes(ObjectClassHandle handle) const;
   /// True if `handle` is `ancestor` or inherits from it.
@@ -105,7 +115,7 @@ class Fom {
   std::string name_;
   std::vector<ObjectClass> object_classes_;
   std::vector<InteractionClass> interaction_classes_;
-  std::vector<std::string> dimensions_;
+  std::vector<Dimension> dimensions_;
   std::uint64_t hash_ = 0;
 };
 

@@ -62,6 +62,8 @@ class FomReader {
   Parameter read_parameter(const Node& node, const InteractionClass& owner);
   Transportation transportation(const Node& node) const;
   Order order(const Node& node) const;
+  DimensionSet dimensions_of(const Node& node) const;
+  std::optional<std::uint32_t> upper_bound(const Node& node) const;
   std::uint64_t hash() const;
 
   std::string_view xml_;
@@ -184,8 +186,29 @@ void FomReader::read_dimensions(const Node& model) {
   for (const Node& node : model.child("dimensions").children("dimension")) {
     const std::string name = text(node, "name");
     if (fom_.dimension(name)) fail(node, "dimension '" + name + "' is declared twice");
-    fom_.dimensions_.push_back(name);
+    if (fom_.dimensions_.size() == dimension_max) fail(node, "more than " + std::to_string(dimension_max) + " dimensions");
+    fom_.dimensions_.push_back({name, upper_bound(node)});
   }
+}
+
+std::optional<std::uint32_t> FomReader::upper_bound(const Node& node) const {
+  if (!node.child("upperBound")) return std::nullopt;
+  const std::string number = text(node, "upperBound");
+  const bool is_number = number.find_first_not_of("0123456789") == std::string::npos && number.size() <= 10;
+  const std::uint64_t value = is_number ? std::stoull(number) : 0;
+  if (value == 0 || value > 0xffffffffu) fail(node.child("upperBound"), path(node) + " must have an <upperBound> that is a whole number from 1 to 4294967295");
+  return static_cast<std::uint32_t>(value);
+}
+
+DimensionSet FomReader::dimensions_of(const Node& node) const {
+  DimensionSet set;
+  for (const Node& dimension : node.child("dimensions").children("dimension")) {
+    const std::string name = dimension.text().get();
+    const auto handle = fom_.dimension(name);
+    if (!handle) fail(dimension, path(node) + " has the unknown dimension '" + name + "'; allowed are those in <dimensions>");
+    set.insert(*handle);
+  }
+  return set;
 }
 
 Transportation FomReader::transportation(const Node& node) const {
@@ -229,11 +252,7 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   attribute.size = size_of(attribute.data_type, node);
   attribute.transportation = transportation(node);
   attribute.order = order(node);
-  for (const Node& dimension : node.child("dimensions").children("dimension")) {
-    const std::string name = dimension.text().get();
-    if (!fom_.dimension(name)) fail(dimension, path(node) + " has the unknown dimension '" + name + "'; allowed are those in <dimensions>");
-    attribute.has_dimensions = true;
-  }
+  attribute.dimensions = dimensions_of(node);
   quantise(attribute, text_or(node, "updateType", "NA") == "Periodic");
   return attribute;
 }
@@ -262,6 +281,7 @@ void FomReader::read_interaction_class(const Node& node, InteractionClassHandle 
     if (other.parent == parent && other.name == interaction_class.name) fail(node, path(node) + " is declared twice");
   interaction_class.transportation = transportation(node);
   interaction_class.order = order(node);
+  interaction_class.dimensions = dimensions_of(node);
   for (const Node& parameter : node.children("parameter")) {
     interaction_class.parameters.push_back(read_parameter(parameter, interaction_class));
     if (interaction_class.parameters.size() > parameter_max) fail(parameter, path(node) + " has more than " + std::to_string(parameter_max) + " parameters");
@@ -295,15 +315,15 @@ std::uint64_t FomReader::hash() const {
     mix("object " + each.name), mix_number(each.parent.value);
     for (const Attribute& attribute : each.attributes) {
       mix_member(attribute);
-      mix_number(static_cast<std::uint64_t>(attribute.transportation)), mix_number(static_cast<std::uint64_t>(attribute.order)), mix_number(attribute.has_dimensions);
+      mix_number(static_cast<std::uint64_t>(attribute.transportation)), mix_number(static_cast<std::uint64_t>(attribute.order)), mix_number(attribute.dimensions.bits);
     }
   }
   for (const InteractionClass& each : fom_.interaction_classes_) {
     mix("interaction " + each.name), mix_number(each.parent.value);
-    mix_number(static_cast<std::uint64_t>(each.transportation)), mix_number(static_cast<std::uint64_t>(each.order));
+    mix_number(static_cast<std::uint64_t>(each.transportation)), mix_number(static_cast<std::uint64_t>(each.order)), mix_number(each.dimensions.bits);
     for (const Parameter& parameter : each.parameters) mix_member(parameter);
   }
-  for (const std::string& dimension : fom_.dimensions_) mix("dimension " + dimension);
+  for (const Dimension& dimension : fom_.dimensions_) mix("dimension " + dimension.name), mix_number(dimension.upper_bound.value_or(0));
   for (const auto& [type, codec] : codecs_)
     if (codec) mix("codec " + type + " " + codec->name());
   for (const ObjectClass& each : fom_.object_classes_)

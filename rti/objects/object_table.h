@@ -23,9 +23,6 @@ struct Object {
   std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
-  bool is_filtered = false;          ///< the filter knows its region
-  RegionHandle region;               ///< where it is updated, or empty
-  std::uint32_t region_federate = 0; ///< slot of the federate whose region that is
   AttributeSet valued;               ///< attributes that have a value
   std::string name;
   std::vector<std::byte> fixed;      ///< coded values of fixed size, at the class's offsets

@@ -34,7 +34,8 @@ enum class MessageKind : std::uint8_t {
   publish_object_class, subscribe_object_class, publish_interaction_class, subscribe_interaction_class,
   register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
   stamp,
-  // free: 20 to 27 federation management, 28 to 35 time, 36 to 45 ownership, 46 to 51 objects and declarations, 52 to 57 regions, 58 to 63 the connection
+  create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
+  // free: 20 to 27 federation management, 28 to 35 time, 36 to 45 ownership, 46 to 51 objects and declarations, 58 to 63 the connection
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,

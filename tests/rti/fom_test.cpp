@@ -19,9 +19,9 @@ TEST(Fom, AttributesAreInheritedFirstAndKeepTheirHandles) {
   EXPECT_EQ(fom.attribute(vessel, "destination"), std::nullopt);
   EXPECT_EQ(fom.at(ferry).attributes[destination.value].order, Order::timestamp);
   EXPECT_EQ(fom.at(*fom.object_class("Tide")).attributes[0].transportation, Transportation::best_effort);
-  EXPECT_TRUE(fom.at(vessel).attributes[position.value].has_dimensions);
-  EXPECT_FALSE(fom.at(vessel).attributes[speed.value].has_dimensions);
-  EXPECT_EQ(fom.dimensions(), (std::vector<std::string>{"X", "Y"}));
+  EXPECT_EQ(fom.at(vessel).attributes[position.value].dimensions, (DimensionSet{*fom.dimension("X"), *fom.dimension("Y")}));
+  EXPECT_TRUE(fom.at(vessel).attributes[speed.value].dimensions.is_empty());
+  EXPECT_EQ(fom.dimensions().size(), 2u);
   EXPECT_EQ(fom.parameter(mayday, "words"), ParameterHandle{0});
 }
 

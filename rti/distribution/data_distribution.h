@@ -1,0 +1,127 @@
+// The seam of data distribution: who hears of which object and interaction, as `FederationExecution` asks it. `Interest` is the one that comes with the RTI.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "im/filter.h"
+#include "rti/fom/dimension_set.h"
+#include "rti/objects/bitmap.h"
+#include "rti/objects/object_table.h"
+
+namespace rink::rti {
+
+/// A closed stretch of one dimension: ranges that touch overlap. Finite, `low <= high`.
+struct Range {
+  double low = 0.0, high = 0.0;
+  bool overlaps(const Range& other) const { return low <= other.high && other.low <= high; }
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// A change that a federate has not been told yet.
+struct ScopeEvent {
+  ObjectSlot slot;
+  im::Transition transition;
+};
+
+/// What one federate is told, as the last match decided it.
+struct FederateInterest {
+  std::uint32_t federate = 0;
+  Bitmap known;                         ///< discovered and not removed
+  Bitmap in_scope;                      ///< of the last match
+  Bitmap fresh;                         ///< came into scope since the last flush: the whole state is due
+  bool has_fresh = false;
+  std::vector<ScopeEvent> events;       ///< since the last flush
+  bool is_uniform = true;               ///< all of a class's objects in scope have the same attributes: `by_class`; else `by_object`
+  std::vector<AttributeSet> by_class, by_object;
+
+  /// What it is told of an object.
+  AttributeSet told(ObjectSlot slot, std::uint16_t object_class) const {
+    if (!in_scope.contains(slot)) return {};
+    return is_uniform ? by_class[object_class] : by_object[slot];
+  }
+};
+
+/// Where a federate subscribes, as it last committed it.
+struct RegionOfInterest {
+  std::uint32_t federate = 0;  ///< slot
+  im::Region bounds;
+};
+
+/// What a data distribution did since it was made: the proof that what does not change costs nothing.
+struct DistributionCounters {
+  std::uint64_t regions_changed = 0;       ///< commits that changed a region
+  std::uint64_t pairs_reconsidered = 0;    ///< (federate, object) pairs whose scope was worked out again
+  std::uint64_t ranges_tested = 0;         ///< pairs of ranges compared outside the filter
+  std::uint64_t entries = 0, exits = 0;    ///< objects that came into and went out of scope
+};
+
+/// Federates are dense slots, as in the federation execution; regions are named by their maker and its own handle. All that is handed in has been checked: classes, attributes
+/// and dimensions exist, ranges are finite and not inverted. A region that was never committed overlaps nothing; what has no region is of the default region, which overlaps all.
+class DataDistribution {
+ public:
+  virtual ~DataDistribution() = default;
+
+  virtual void add_federate(std::uint32_t federate) = 0;
+  /// Its regions and subscriptions end.
+  virtual void remove_federate(std::uint32_t federate) = 0;
+  /// What `match` decided for it; valid until it is removed.
+  FederateInterest& of(std::uint32_t federate) { return *told_[federate]; }
+  const FederateInterest& of(std::uint32_t federate) const { return *told_[federate]; }
+
+  /// Replaces what it named for the class and region before; an empty handle is the default region. False if the region does not exist.
+  virtual bool subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) = 0;
+  /// What it names for the class and region now.
+  virtual AttributeSet subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const = 0;
+  /// All that it subscribes of a class, in whatever region, superclasses included.
+  virtual AttributeSet subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const = 0;
+  /// To one interaction class within a region; false if the region does not exist.
+  virtual bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) = 0;
+  /// True if it subscribes to the class or a superclass with any region.
+  virtual bool subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const = 0;
+  /// True if a region that it subscribes to the class with overlaps one of the sender's, as they are committed now.
+  virtual bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) = 0;
+
+  virtual bool has_region(std::uint32_t federate, RegionHandle region) const = 0;
+  /// False if the handle is in use or leaves a gap. Without dimensions: over the plane.
+  virtual bool create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) = 0;
+  virtual DimensionSet dimensions(std::uint32_t federate, RegionHandle region) const = 0;
+  /// Of a region over the plane alone.
+  virtual bool is_planar(std::uint32_t federate, RegionHandle region) const = 0;
+  virtual void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) = 0;
+  /// One range for each of its dimensions in ascending order.
+  virtual void modify_region(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges) = 0;
+  /// Its subscriptions end; what used it is of the default region again, unless it has other regions.
+  virtual void delete_region(std::uint32_t federate, RegionHandle region) = 0;
+
+  /// All attributes of the object use the region alone; an empty handle gives them back to the default region.
+  virtual void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region) = 0;
+  /// Adds the region to those of `attributes`, or takes it away.
+  virtual void associate(std::uint32_t federate, ObjectSlot slot, RegionHandle region, AttributeSet attributes) = 0;
+  virtual void disassociate(std::uint32_t federate, ObjectSlot slot, RegionHandle region, AttributeSet attributes) = 0;
+  /// Those of `attributes` whose regions overlap `region`, as they are committed now; attributes of the default region always do.
+  virtual AttributeSet overlapping(std::uint32_t federate, RegionHandle region, ObjectSlot slot, AttributeSet attributes) = 0;
+
+  virtual void object_registered(ObjectSlot slot) = 0;
+  /// Nobody hears of it any more; who knew it still has it in `known`.
+  virtual void object_deleted(ObjectSlot slot) = 0;
+  /// Some of its attributes have another owner than at the last match. Its regions stay until the new owner associates its own, or their maker deletes them or leaves:
+  /// falling back to the default region meanwhile would show every body that is handed over to everybody.
+  virtual void owner_changed(ObjectSlot slot) = 0;
+
+  /// Turns all that was said since the last match into changes of scope.
+  virtual void match() = 0;
+
+  virtual const DistributionCounters& counters() const = 0;
+  /// Appends every region of the plane that a federate subscribes with and has committed.
+  virtual void list_regions_of_interest(std::vector<RegionOfInterest>& regions) const = 0;
+  /// The filter that decides in the plane; for who shows it.
+  virtual const im::Filter& filter() const = 0;
+
+ protected:
+  std::vector<FederateInterest*> told_;  ///< by federate slot; null where nobody is. The derived class owns them
+};
+
+}  // namespace rink::rti

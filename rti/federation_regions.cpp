@@ -1,0 +1,156 @@
+// What federates say of regions: checked once, here; then it is the data distribution's.
+#include <algorithm>
+
+#include "rti/federation_parts.h"
+#include "rti/wire/region_messages.h"
+
+namespace rink::rti {
+
+using Outcome = std::optional<Violation>;
+
+namespace {
+
+/// Calls `take(record)` for each record until it returns a violation.
+template <class Record, class Take>
+Outcome for_each_record(Bytes bytes, std::size_t count, Take take) {
+  Reader reader(bytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    Record record;
+    if (!exchange(reader, record)) return Violation::malformed;
+    if (const Outcome outcome = take(record)) return outcome;
+  }
+  return std::nullopt;
+}
+
+std::vector<RegionHandle> regions_of(Bytes bytes) {
+  std::vector<RegionHandle> regions(bytes.size() / sizeof(std::uint32_t));
+  Reader reader(bytes);
+  for (RegionHandle& each : regions) reader.number(each.value);
+  return regions;
+}
+
+}  // namespace
+
+Outcome FederationExecution::Parts::take_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  switch (kind) {
+    case MessageKind::modify_regions: return modify_regions(slot, reader);
+    case MessageKind::modify_ranges: return modify_ranges(slot, reader);
+    case MessageKind::associate_region: return associate_region(slot, reader);
+    case MessageKind::associate_regions: return associate_regions(slot, reader);
+    case MessageKind::create_region_over: return create_region_over(slot, reader);
+    case MessageKind::regional_class: return take_regional_class(slot, reader);
+    case MessageKind::regional_interaction: return take_regional_interaction(slot, reader);
+    case MessageKind::interaction_within: return take_interaction_within(slot, reader);
+    default: return create_or_delete_region(slot, kind, reader);
+  }
+}
+
+Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  CreateRegionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const RegionHandle region{message.region};
+  if (kind == MessageKind::create_region) return interest_.create_region(slot, region, {}) ? Outcome() : Violation::unknown_name;
+  if (!interest_.has_region(slot, region)) return Violation::unknown_name;
+  interest_.delete_region(slot, region);
+  list_interaction_subscriber(slot);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::create_region_over(std::uint32_t slot, Reader& reader) {
+  CreateRegionOverMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const DimensionSet dimensions{message.dimensions};
+  const std::size_t count = fom_.dimensions().size();
+  const DimensionSet all{count == dimension_max ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1};
+  if (!all.includes(dimensions) || !interest_.create_region(slot, {message.region}, dimensions)) return Violation::unknown_name;
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& reader) {
+  ModifyRegionsMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  return for_each_record<RegionBounds>(message.records, message.count, [&](const RegionBounds& record) -> Outcome {
+    if (!interest_.has_region(slot, record.region) || !interest_.is_planar(slot, record.region)) return Violation::unknown_name;
+    interest_.modify_region(slot, record.region, record.bounds);
+    return std::nullopt;
+  });
+}
+
+Outcome FederationExecution::Parts::modify_ranges(std::uint32_t slot, Reader& reader) {
+  ModifyRangesMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const RegionHandle region{message.region};
+  if (!interest_.has_region(slot, region) || interest_.dimensions(slot, region).count() != message.count) return Violation::unknown_name;
+  ranges_.clear();
+  const Outcome outcome = for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Outcome {
+    ranges_.push_back(range);
+    return std::nullopt;
+  });
+  if (!outcome) interest_.modify_region(slot, region, ranges_);
+  return outcome;
+}
+
+Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader& reader) {
+  AssociateRegionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const ObjectSlot object = objects_.find({message.object});
+  const RegionHandle region{message.region};
+  if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
+  if (objects_[object].owner != slot) return Violation::not_owned;
+  interest_.associate(slot, object, region);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::associate_regions(std::uint32_t slot, Reader& reader) {
+  AssociateRegionsMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  const ObjectSlot object = objects_.find({message.object});
+  if (object == no_object) return Violation::unknown_name;
+  const AttributeSet all = fom_.attributes(ObjectClassHandle{objects_[object].object_class});
+  return for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+    const AttributeSet attributes{pair.attributes};
+    if (!all.includes(attributes) || !interest_.has_region(slot, {pair.region})) return Violation::unknown_name;
+    if (!message.is_associated) interest_.disassociate(slot, object, {pair.region}, attributes);
+    else if (objects_[object].owner == slot) interest_.associate(slot, object, {pair.region}, attributes);
+    else return Violation::not_owned;
+    return std::nullopt;
+  });
+}
+
+Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Reader& reader) {
+  RegionalClassMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
+  const AttributeSet all = fom_.attributes(ObjectClassHandle{message.object_class});
+  return for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+    const AttributeSet attributes{pair.attributes};
+    const RegionHandle region{pair.region};
+    if (!all.includes(attributes) || !interest_.has_region(slot, region)) return Violation::unknown_name;
+    const AttributeSet now = interest_.subscribed(slot, message.object_class, region);
+    interest_.subscribe(slot, message.object_class, message.action != 0 ? now | attributes : now.without(attributes), region);
+    return std::nullopt;
+  });
+}
+
+Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot, Reader& reader) {
+  RegionalInteractionMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  for (const RegionHandle region : regions_of(message.regions))
+    if (!interest_.subscribe_interaction(slot, message.interaction_class, region, message.is_subscribed != 0)) return Violation::unknown_name;
+  list_interaction_subscriber(slot);
+  return std::nullopt;
+}
+
+Outcome FederationExecution::Parts::take_interaction_within(std::uint32_t slot, Reader& reader) {
+  InteractionWithinMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
+  const std::vector<RegionHandle> regions = regions_of(message.regions);
+  for (const RegionHandle region : regions)
+    if (!interest_.has_region(slot, region)) return Violation::unknown_name;
+  InteractionMessage interaction{message.interaction_class, FederateHandle::none, message.stamp, message.parameters};
+  return deliver_interaction(slot, interaction, regions);
+}
+
+}  // namespace rink::rti

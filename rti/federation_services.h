@@ -1,0 +1,19 @@
+// The parts of a federation execution that a user may replace by parts of their own.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "im/filter.h"
+#include "rti/distribution/data_distribution.h"
+#include "rti/ownership/ownership.h"
+
+namespace rink::rti {
+
+/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the execution's constructor, and what it is handed outlives what it makes.
+struct FederationServices {
+  /// Who hears of what. `filter` is the one that the settings name.
+  std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)> data_distribution;
+};
+
+}  // namespace rink::rti

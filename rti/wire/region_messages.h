@@ -1,0 +1,115 @@
+// Messages about regions over any dimensions, and about what is published and wanted within them.
+#pragma once
+
+#include <cstdint>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/wire/message.h"
+
+namespace rink::rti {
+
+/// Most pairs or regions that one message names.
+inline constexpr std::size_t regions_per_message_max = 1024;
+
+/// `create_region` with dimensions: bit k stands for the model's dimension k, at least one.
+struct CreateRegionOverMessage {
+  static constexpr MessageKind kind = MessageKind::create_region_over;
+  std::uint32_t region = 0;
+  std::uint64_t dimensions = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, CreateRegionOverMessage& message) {
+  return stream.range(message.region, region_max - 1) && stream.number(message.dimensions) && message.dimensions != 0;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Range& range) {
+  return stream.finite(range.low) && stream.finite(range.high) && range.low <= range.high;
+}
+
+/// Commits a region: `ranges` are low and high (f64 each) for each of its dimensions in ascending order, both ends included; [lower, upper) of a dimension with an upper bound travels
+/// as lower and upper - 1, which overlaps the same ranges.
+struct ModifyRangesMessage {
+  static constexpr MessageKind kind = MessageKind::modify_ranges;
+  static constexpr std::size_t range_size = 2 * 8;
+  std::uint32_t region = 0;
+  std::uint8_t count = 0;
+  Bytes ranges;
+};
+template <class Stream>
+bool exchange(Stream& stream, ModifyRangesMessage& message) {
+  return stream.range(message.region, region_max - 1) && stream.range(message.count, dimension_max) && stream.rest(message.ranges, message.count * ModifyRangesMessage::range_size);
+}
+
+/// Attributes and a region that they are published or wanted in.
+struct AttributeRegionRecord {
+  std::uint32_t attributes = 0;
+  std::uint32_t region = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, AttributeRegionRecord& record) {
+  return stream.number(record.attributes) && stream.range(record.region, region_max - 1);
+}
+
+/// What is to be done with a class and the pairs that follow.
+enum class RegionAction : std::uint8_t { remove, add, request_update };
+
+/// `pairs` are, `count` times, attributes u32 and region u32.
+struct RegionalClassMessage {
+  static constexpr MessageKind kind = MessageKind::regional_class;
+  static constexpr std::size_t pair_size = 4 + 4;
+  std::uint16_t object_class = 0;
+  std::uint8_t action = 0;  ///< RegionAction
+  std::uint16_t count = 0;
+  Bytes pairs;
+};
+template <class Stream>
+bool exchange(Stream& stream, RegionalClassMessage& message) {
+  return stream.number(message.object_class) && stream.range(message.action, static_cast<std::uint64_t>(RegionAction::request_update)) &&
+         stream.range(message.count, regions_per_message_max) && stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
+}
+
+/// Subscribes to an interaction class within each of the regions (u32 each), or no longer.
+struct RegionalInteractionMessage {
+  static constexpr MessageKind kind = MessageKind::regional_interaction;
+  std::uint16_t interaction_class = 0;
+  std::uint8_t is_subscribed = 1;
+  std::uint16_t count = 0;
+  Bytes regions;
+};
+template <class Stream>
+bool exchange(Stream& stream, RegionalInteractionMessage& message) {
+  return stream.number(message.interaction_class) && stream.range(message.is_subscribed, 1) && stream.range(message.count, regions_per_message_max) &&
+         stream.rest(message.regions, message.count * sizeof(std::uint32_t));
+}
+
+/// Adds each pair's region to those that its attributes are updated in, or takes it away.
+struct AssociateRegionsMessage {
+  static constexpr MessageKind kind = MessageKind::associate_regions;
+  std::uint32_t object = 0;
+  std::uint8_t is_associated = 1;
+  std::uint16_t count = 0;
+  Bytes pairs;
+};
+template <class Stream>
+bool exchange(Stream& stream, AssociateRegionsMessage& message) {
+  return stream.number(message.object) && stream.range(message.is_associated, 1) && stream.range(message.count, regions_per_message_max) &&
+         stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
+}
+
+/// An interaction for those who subscribe without a region, or with one that overlaps one of `regions` (u32 each).
+struct InteractionWithinMessage {
+  static constexpr MessageKind kind = MessageKind::interaction_within;
+  std::uint16_t interaction_class = 0;
+  Stamp stamp;
+  std::uint16_t count = 0;
+  Bytes regions;
+  Bytes parameters;
+};
+template <class Stream>
+bool exchange(Stream& stream, InteractionWithinMessage& message) {
+  return stream.number(message.interaction_class) && exchange(stream, message.stamp) && stream.range(message.count, regions_per_message_max) &&
+         stream.rest(message.regions, message.count * sizeof(std::uint32_t)) && stream.template bytes<std::uint16_t>(message.parameters, parameters_max);
+}
+
+}  // namespace rink::rti
