@@ -125,7 +125,7 @@ void rink_round_trip(benchmark::State& state) {
       for (; answered < federate.interactions; ++answered) federate.ambassador.send_interaction(pong, answer, {});
       if (federate.ambassador.outgoing().empty()) continue;
       links.flush(0.0);
-      host.poll(0ms);
+      host.poll(near);
       host.flush();
     }
   });

@@ -48,7 +48,7 @@ void Serving::exchange(double longest_wait_s) {
   endpoint_.poll({}, links_);
   link_.flush(now_s_());
   if (!server_.take_urgent()) return;
-  host_.poll({});
+  host_.poll(hub_);
   host_.flush();
 }
 

@@ -89,6 +89,11 @@ void FederationHost::poll(std::chrono::nanoseconds longest_wait) {
   }
 }
 
+void FederationHost::poll(Transport& transport) {
+  for (const auto& port : ports_)
+    if (&port->transport() == &transport) port->poll(std::chrono::nanoseconds(0));
+}
+
 void FederationHost::flush() {
   HostOutlet outlet(*this);
   execution_.flush(outlet);

@@ -22,6 +22,8 @@ class FederationHost {
 
   /// Takes in what came, from each transport in the order added; only the last one waits, up to `longest_wait`, if nothing came before.
   void poll(std::chrono::nanoseconds longest_wait);
+  /// The same from one transport alone, without waiting: what a federate beside us has answered needs no question to the kernel.
+  void poll(Transport& transport);
   void advance_clock(double now) { execution_.advance_clock(now); }
   void match() { execution_.match(); }
   /// One write per destination; drops whom the execution wants dropped.

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <ctime>
 
 namespace rink::rti {
@@ -46,24 +47,48 @@ void Readiness::change(int file, std::uint64_t number, bool wants_bytes, bool wa
   ::epoll_ctl(epoll_.number(), EPOLL_CTL_MOD, file, &event);
 }
 
-std::optional<Readiness::Event> Readiness::next() {
-  if (taken_ == count_) {
-    taken_ = 0;
-    count_ = static_cast<std::size_t>(std::max(0, ::epoll_wait(epoll_.number(), told_.data(), static_cast<int>(told_.size()), 0)));
-    if (count_ == 0) return std::nullopt;
+void Readiness::ask_now() {
+  taken_ = 0;
+  count_ = static_cast<std::size_t>(std::max(0, ::epoll_wait(epoll_.number(), told_.data(), static_cast<int>(told_.size()), 0)));
+}
+
+void Readiness::ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
+  using Clock = std::chrono::steady_clock;
+  if (taken_ != count_) return;
+  if (longest_wait.count() <= 0) return ask_now();
+  if (spin.count() > 0) {
+    const Clock::time_point start = Clock::now(), until = start + std::min(spin, longest_wait);
+    do ask_now();
+    while (count_ == 0 && Clock::now() < until);
+    if (count_ != 0 || spin >= longest_wait) return;
+    longest_wait -= Clock::now() - start;
   }
+  if (longest_wait.count() > 0) sleep(longest_wait);
+}
+
+/// Sleeping and asking are one system call where the kernel has epoll_pwait2 (Linux 5.11), three where it has not: epoll_wait counts whole milliseconds, but ppoll on
+/// the epoll itself is exact everywhere.
+void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
+  const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()), .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
+  if (has_exact_sleep_) {
+    taken_ = 0;
+    const int count = ::epoll_pwait2(epoll_.number(), told_.data(), static_cast<int>(told_.size()), &timeout, nullptr);
+    count_ = static_cast<std::size_t>(std::max(0, count));
+    if (count >= 0 || errno == EINTR) return;
+    has_exact_sleep_ = false;  // an older kernel, or a sandbox that has not heard of it
+  }
+  pollfd all{.fd = epoll_.number(), .events = POLLIN, .revents = 0};
+  ::ppoll(&all, 1, &timeout, nullptr);
+  ask_now();
+}
+
+std::optional<Readiness::Event> Readiness::next() {
+  if (taken_ == count_ && count_ == told_.size()) ask_now();
+  if (taken_ == count_) return std::nullopt;
   const epoll_event& event = told_[taken_++];
   const bool is_over = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
   return Event{.number = event.data.u64, .is_writable = is_over || (event.events & EPOLLOUT) != 0, .is_readable = is_over || (event.events & EPOLLIN) != 0};
-}
-
-void Readiness::wait(std::chrono::nanoseconds longest_wait) {
-  if (taken_ != count_) return;
-  // epoll_wait counts whole milliseconds and its exact sibling is too young for some sandboxes; ppoll on the epoll itself is exact everywhere.
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(longest_wait);
-  const timespec timeout{.tv_sec = static_cast<std::time_t>(seconds.count()), .tv_nsec = static_cast<long>((longest_wait - seconds).count())};
-  pollfd all{.fd = epoll_.number(), .events = POLLIN, .revents = 0};
-  ::ppoll(&all, 1, &timeout, nullptr);
 }
 
 }  // namespace rink::rti

@@ -43,18 +43,22 @@ class Readiness {
   bool watch(int file, std::uint64_t number, bool wants_room);
   void change(int file, std::uint64_t number, bool wants_bytes, bool wants_room);
 
-  /// The next event, in the order in which the kernel tells them; it is asked again once all that it told are taken, so that nobody waits for ever
-  /// behind a file that always has something. An event may be about a file that was closed since.
-  std::optional<Event> next();
+  /// Asks the kernel what is ready, unless something that it told is left to take. If nothing is ready it asks again and again for `spin`, then sleeps until
+  /// something is; both together take at most `longest_wait`. May end early.
+  void ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin);
 
-  /// Waits for an event, at most so long; may end early.
-  void wait(std::chrono::nanoseconds longest_wait);
+  /// The next event, in the order in which the kernel told them, or nothing if all are taken. The kernel is asked again here only where its answer was as long as one
+  /// may be. So a file that always has something comes back when all others had their turn. An event may be about a file that was closed since.
+  std::optional<Event> next();
 
  private:
   static constexpr std::size_t batch_max = 512;  ///< events of one system call
+  void ask_now();
+  void sleep(std::chrono::nanoseconds longest_wait);
   File epoll_;
   std::array<epoll_event, batch_max> told_;
   std::size_t taken_ = 0, count_ = 0;
+  bool has_exact_sleep_ = true;  ///< the kernel knows epoll_pwait2
 };
 
 }  // namespace rink::rti

@@ -1,6 +1,7 @@
 // TCP between processes and machines, on Asio's reactor.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,6 +14,8 @@ struct TcpSettings {
   std::size_t queue_max = 1u << 20;      ///< bytes queued for a peer that doesn't read, before it is closed [bytes]
   std::size_t read_buffer = 256 * 1024;  ///< shared by all connections [bytes]
   std::size_t bytes_per_poll = 1u << 20; ///< received from all together before a poll returns, give or take a buffer [bytes]
+  /// How long a poll that may wait asks again and again before it sleeps: no wake-up, which is most of a round trip, but a core that nobody else gets meanwhile.
+  std::chrono::nanoseconds spin{0};
 };
 
 /// Any number of connections on one thread, without Nagle's delay. `poll` wakes within the kernel's own timer slack.

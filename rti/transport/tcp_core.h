@@ -72,7 +72,6 @@ class TcpTransport::Core {
   std::vector<Closed> closed_, reporting_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling
-  std::uint64_t reported_ = 0;                    ///< events told to listeners so far
   std::uint64_t bytes_taken_ = 0;                 ///< received by all connections
 };
 

@@ -33,7 +33,6 @@ void TcpTransport::Core::read(Peer& peer) {
   }
   peer.counters.bytes_received += static_cast<std::uint64_t>(size);
   bytes_taken_ += static_cast<std::uint64_t>(size);
-  ++reported_;
   listener_->on_bytes(peer.id, Bytes(read_buffer_).first(static_cast<std::size_t>(size)));
 }
 
@@ -51,7 +50,7 @@ std::size_t TcpTransport::Core::write(Peer& peer, std::span<const Bytes> parts, 
     message.msg_iov = vectors.data();
     message.msg_iovlen = count;
     ssize_t sent = 0;
-    do sent = ::sendmsg(peer.file.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    do sent = count == 1 ? ::send(peer.file.number(), vectors[0].iov_base, size, MSG_NOSIGNAL | MSG_DONTWAIT) : ::sendmsg(peer.file.number(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     while (sent < 0 && errno == EINTR);
     if (sent < 0) {
       is_broken = errno != EAGAIN && errno != EWOULDBLOCK;
