@@ -270,7 +270,7 @@ void raw_tick_send(benchmark::State& state) {
     sockets.push_back(acceptor.accept());
     sockets.back().set_option(asio::ip::tcp::no_delay(true));
   }
-  const std::vector<std::byte> message(4 + 35 + seen_count * 12);
+  const std::vector<std::byte> message(4 + 21 + seen_count * 9);  // as long as Rink's: frame, stamp and block, then a step and 8 bytes for each
   double busy_s = 0.0;
   std::uint64_t sent = 0;
   for (auto _ : state) {
