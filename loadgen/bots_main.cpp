@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
+#include "game/net/interrupt.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/bot_crowd.h"
@@ -27,8 +27,6 @@ namespace {
 
 using namespace rink;
 using Json = nlohmann::ordered_json;
-
-volatile std::sig_atomic_t is_interrupted = 0;
 
 struct Options {
   std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd";
@@ -117,7 +115,7 @@ loadgen::LivePlayers players_of(const Options& options) {
 
 std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) {
   const loadgen::Measurements& measured = crowd.measurements();
-  if (is_interrupted) return "interrupted";
+  if (game::is_interrupted) return "interrupted";
   if (crowd.lost_count() > 0) return std::to_string(crowd.lost_count()) + " of " + std::to_string(options.count) + " bots were lost: " + crowd.first_trouble();
   if (!crowd.has_started()) return "the game did not start";
   if (measured.keys_sent < measured.keys_due) return std::to_string(measured.keys_due - measured.keys_sent) + " planned keys were not sent";
@@ -128,7 +126,7 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
 }
 
 game::ExitStatus status(const loadgen::BotCrowd& crowd) {
-  if (is_interrupted) return game::ExitStatus::interrupted;
+  if (game::is_interrupted) return game::ExitStatus::interrupted;
   if (!crowd.has_started() || crowd.lost_count() > 0) {
     spdlog::error("{} of {} bots were lost: {}", crowd.lost_count(), crowd.bot_count(), crowd.first_trouble().empty() ? "the game did not start" : crowd.first_trouble());
     return crowd.first_status();
@@ -158,11 +156,11 @@ game::ExitStatus play(const Options& options) {
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });
   const double give_up_s = now_s() + options.patience_s;
   ProcessorLoad load;
-  while (!is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) {
+  while (!game::is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s)) {
     crowd.run_once();
     load.look(crowd.is_measuring());
   }
-  for (const double until_s = now_s() + 0.1; !is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
+  for (const double until_s = now_s() + 0.1; !game::is_interrupted && now_s() < until_s;) crowd.run_once();  // the kernel's count lags by an acknowledgement
   Json written = loadgen::bots_report(crowd, why_invalid(options, crowd));
   written["cpu_share"] = load.share() ? Json(*load.share()) : Json(nullptr);
   written["histogram_ns_per_record"] = histogram_ns;
@@ -191,9 +189,7 @@ int main(int count, char** values) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
-  std::signal(SIGINT, [](int) { is_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
-  std::signal(SIGPIPE, SIG_IGN);
+  game::hear_interrupts();
   try {
     return static_cast<int>(play(options));
   } catch (const rti::TransportError& error) {

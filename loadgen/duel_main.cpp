@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
+#include "game/net/interrupt.h"
 #include "game/net/network_match.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
@@ -25,8 +25,6 @@
 namespace {
 
 using namespace rink;
-
-volatile std::sig_atomic_t is_interrupted = 0;
 
 struct Options {
   std::string connect = "127.0.0.1:4711", players = "chaser";
@@ -81,7 +79,7 @@ game::ExitStatus play(const Options& options) {
   const double begin_s = now_s(), period_s = 1.0 / options.frame_hz;
   std::uint32_t played = 0;
   bool was_over = false;
-  for (std::uint64_t frame = 1; !is_interrupted && played < options.matches && (options.duration_s == 0.0 || now_s() < begin_s + options.duration_s); ++frame) {
+  for (std::uint64_t frame = 1; !game::is_interrupted && played < options.matches && (options.duration_s == 0.0 || now_s() < begin_s + options.duration_s); ++frame) {
     for (const auto& rival : rivals) rival->frame();
     for (const auto& rival : rivals) {
       if (rival->match.sight().phase != game::MatchPhase::lost) continue;
@@ -97,7 +95,7 @@ game::ExitStatus play(const Options& options) {
   }
   for (const auto& rival : rivals) print(*rival);
   for (const auto& rival : rivals) rival->match.leave(now_s());
-  return is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
+  return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 
 }  // namespace
@@ -118,9 +116,7 @@ int main(int count, char** values) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
-  std::signal(SIGINT, [](int) { is_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
-  std::signal(SIGPIPE, SIG_IGN);
+  game::hear_interrupts();
   try {
     return static_cast<int>(play(options));
   } catch (const std::exception& error) {

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "game/model/byte_hash.h"
 #include "loadgen/results.h"
 #include "loadgen/run_fields.h"
 
@@ -120,11 +121,7 @@ std::string identity_of(const Experiment& experiment) {
     if (std::filesystem::is_regular_file(file)) content << std::ifstream(file, std::ios::binary).rdbuf();
     all += '\0' + content.str();
   }
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char letter : all) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3u;
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
+  return game::hexadecimal(game::hash_of(all));
 }
 
 nlohmann::ordered_json to_json(const JournalHead& head) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -12,13 +11,13 @@
 #include <streambuf>
 
 #include "game/control/key_log_packed.h"
+#include "game/model/byte_hash.h"
 
 namespace rink::game {
 namespace {
 
 constexpr const char* version_line = "rink-keys 1";
 constexpr std::size_t version_line_max = 256, line_max = 1u << 16, size_max = 1u << 30;  // bytes
-constexpr double time_max = 1e9;  // s, as in scenes (docs/scenes.md, "Limits")
 constexpr std::array<std::string_view, 4> input_names{"down", "up", "enter", "leave"};
 
 bool has_key(InputKind kind) { return kind == InputKind::key_down || kind == InputKind::key_up; }
@@ -38,12 +37,6 @@ std::optional<Number> number_of(const std::string& text, Base... base) {
   return number;
 }
 
-std::string hexadecimal(std::uint64_t number) {
-  std::array<char, 17> digits;
-  std::snprintf(digits.data(), digits.size(), "%016" PRIx64, number);
-  return digits.data();
-}
-
 /// For messages: the beginning of what stands there, and no byte that a terminal would obey.
 std::string printable(const std::string& text) {
   constexpr std::size_t shown_max = 60;
@@ -53,18 +46,17 @@ std::string printable(const std::string& text) {
   return text.size() > shown_max ? shown + "..." : shown;
 }
 
-/// FNV-1a (Fowler, Noll and Vo) over lines with their ends.
+/// Over lines with their ends.
 class LineChecksum {
  public:
   void add(const std::string& line) {
-    for (const char byte : line) mix(byte);
-    mix('\n');
+    hash_.add(line);
+    hash_.add('\n');
   }
-  std::uint64_t value() const { return sum_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
-  void mix(char byte) { sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u; }
-  std::uint64_t sum_ = 0xcbf29ce484222325u;
+  ByteHash hash_;
 };
 
 std::string first_line_expected() { return std::string("the line \"") + version_line + "\" or \"" + packed_version_line + "\", with which key logs of this version begin"; }
@@ -154,7 +146,7 @@ class Reader {
 
   double time_of(const std::string& word) const {
     const double time = require<double>(word, "scene, seed, bats, fingerprint, until, hash, end, or a time in seconds");
-    if (!(time >= 0.0 && time <= time_max)) refuse(word, "a time from 0 to 1e9 s");
+    if (!(time >= 0.0 && time <= key_time_max)) refuse(word, "a time from 0 to 1e9 s");
     return time;
   }
 

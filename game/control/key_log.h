@@ -12,6 +12,9 @@
 
 namespace rink::game {
 
+/// The greatest instant of an event [s], as in scenes (docs/scenes.md, "Limits").
+inline constexpr double key_time_max = 1e9;
+
 /// Which game was played and how: packed (key_log_packed.h) of matches, else text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint, until, hash, the
 /// scene's own text behind bars, then one line per event: time with 17 significant digits, which read back to the same bits, player, what (down, up, enter, leave) and, for
 /// down and up, the key. The last line, `end`, has the number of events and a checksum of all lines above.

@@ -10,12 +10,12 @@
 #include <istream>
 #include <ostream>
 
+#include "game/model/byte_hash.h"
 #include "game/model/time_grid.h"
 
 namespace rink::game {
 namespace {
 
-constexpr double time_max = 1e9;             // s, as in scenes (docs/scenes.md, "Limits")
 constexpr std::uint64_t size_max = 1u << 28;  // bytes: a crowd's keys of some days
 constexpr double millisecond = 1e-3;
 constexpr std::int64_t ulps_max = 127;       // so far is what a player's arithmetic makes of a whole millisecond
@@ -26,13 +26,6 @@ enum class TimeForm : std::uint8_t { on_grid, near_millisecond, in_full };
 enum class Part : std::uint8_t { bats, bat_count, puck_count, fingerprint, until, hash };
 
 constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;
-
-/// FNV-1a (Fowler, Noll and Vo).
-std::uint64_t checksum_of(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return sum;
-}
 
 /// The bits of a time, which is not below 0: neighbours in them are neighbours in time.
 std::int64_t bits_of(double time) { return std::bit_cast<std::int64_t>(time); }
@@ -170,7 +163,7 @@ class PackedReader {
   std::string text() { return std::string(take(varint())); }
 
   double checked(double time) const {
-    if (!(time >= 0.0 && time <= time_max)) refuse("has a time that is not from 0 to 1e9 s");
+    if (!(time >= 0.0 && time <= key_time_max)) refuse("has a time that is not from 0 to 1e9 s");
     return time;
   }
 
@@ -215,7 +208,7 @@ void write_packed_key_log(std::ostream& stream, const KeyLog& log) {
   const std::string bytes = packed(log);
   std::string head = std::string(packed_version_line) + '\n';
   PackedWriter out(head);
-  out.whole(checksum_of(bytes));
+  out.whole(hash_of(bytes));
   out.whole(static_cast<std::uint64_t>(bytes.size()));
   stream << head << bytes;
 }
@@ -240,7 +233,7 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
   const std::string bytes = read_up_to(stream, numbers[1] + 1);
   if (bytes.size() < numbers[1]) throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " + std::to_string(numbers[1]) + " bytes are there");
   if (bytes.size() > numbers[1]) throw SceneError(name + ": was altered: it goes on after its end");
-  if (checksum_of(bytes) != numbers[0]) throw SceneError(name + ": was altered: its checksum is another");
+  if (hash_of(bytes) != numbers[0]) throw SceneError(name + ": was altered: its checksum is another");
   return PackedReader(bytes, name).read();
 }
 

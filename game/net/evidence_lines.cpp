@@ -1,8 +1,6 @@
-// FNV-1a (Fowler, Noll and Vo) over the bytes: not against forgers, but against truncation, bad disks and editors.
+// The last line tells whether the others are all there and as they were written.
 #include "game/net/evidence_lines.h"
 
-#include <cinttypes>
-#include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -10,32 +8,23 @@
 namespace rink::game {
 namespace {
 
-constexpr std::uint64_t hash_begin = 0xcbf29ce484222325u;
-
-std::uint64_t hashed(std::uint64_t hash, std::string_view bytes) {
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return hash;
-}
-
 std::string last_line(std::uint64_t lines, std::uint64_t hash) {
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, hash);
-  return nlohmann::ordered_json{{"lines", lines}, {"fnv1a", digits}}.dump() + "\n";
+  return nlohmann::ordered_json{{"lines", lines}, {"fnv1a", hexadecimal(hash)}}.dump() + "\n";
 }
 
 }  // namespace
 
-EvidenceWriter::EvidenceWriter(std::string file) : file_(std::move(file)), stream_(file_), hash_(hash_begin) {}
+EvidenceWriter::EvidenceWriter(std::string file) : file_(std::move(file)), stream_(file_) {}
 
 void EvidenceWriter::line(const nlohmann::ordered_json& value) {
   const std::string text = value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  hash_ = hashed(hash_, text);
+  hash_.add(text);
   ++lines_;
   stream_ << text;
 }
 
 void EvidenceWriter::finish() {
-  stream_ << last_line(lines_, hash_);
+  stream_ << last_line(lines_, hash_.value());
   stream_.close();
   if (!stream_) throw std::runtime_error("cannot write '" + file_ + "'");
 }
@@ -47,7 +36,7 @@ EvidenceReader::EvidenceReader(std::string file) : file_(std::move(file)) {
   const std::size_t before_last = text_.size() < 2 ? std::string::npos : text_.rfind('\n', text_.size() - 2);
   const std::size_t end = before_last == std::string::npos ? 0 : before_last + 1;
   for (const char byte : std::string_view(text_).substr(0, end)) lines_ += byte == '\n' ? 1u : 0u;
-  if (std::string_view(text_).substr(end) != last_line(lines_, hashed(hash_begin, std::string_view(text_).substr(0, end))))
+  if (std::string_view(text_).substr(end) != last_line(lines_, hash_of(std::string_view(text_).substr(0, end))))
     throw EvidenceError(file_ + ": truncated or altered: its last line does not fit the " + std::to_string(lines_) + " lines before it");
   text_.resize(end);
 }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "game/model/byte_hash.h"
+
 namespace rink::game {
 
 /// Evidence that cannot be used; the message names file, line and what was expected.
@@ -26,7 +28,8 @@ class EvidenceWriter {
  private:
   std::string file_;
   std::ofstream stream_;
-  std::uint64_t lines_ = 0, hash_;
+  std::uint64_t lines_ = 0;
+  ByteHash hash_;
 };
 
 /// Reads what EvidenceWriter wrote, whole or not at all.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "game/net/flags.h"
 #include "game/net/evidence.h"
 #include "game/net/fom_file.h"
+#include "game/net/interrupt.h"
 #include "game/net/scene_choice.h"
 #include "game/net/serve_options.h"
 #include "game/net/serve_report.h"
@@ -33,8 +33,6 @@ namespace {
 
 using namespace rink;
 using Json = nlohmann::ordered_json;
-
-volatile std::sig_atomic_t is_interrupted = 0;
 
 /// The due instant in stamps from before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
@@ -115,12 +113,12 @@ rti::FederationSettings ServerProcess::federation_of(const game::ServeOptions& o
 
 void ServerProcess::exchange_until(double until_s) {
   do serving_.exchange(std::min(0.25, until_s - now_s()));
-  while (now_s() < until_s && !is_interrupted);
+  while (now_s() < until_s && !game::is_interrupted);
 }
 
 /// However long the players think, silence is noticed and the RTI is heard to live.
 void ServerProcess::await_turns() {
-  while (!is_interrupted && server_.trouble().empty() && !server_.all_turns_done()) {
+  while (!game::is_interrupted && server_.trouble().empty() && !server_.all_turns_done()) {
     serving_.exchange(0.25);
     serving_.host().advance_clock(now_s());
   }
@@ -129,14 +127,14 @@ void ServerProcess::await_turns() {
 bool ServerProcess::start() {
   const double give_up_s = now_s() + options_.patience_s;
   game::TickCosts uncounted;
-  while (!is_interrupted && (!server_.is_joined() || server_.player_count() < options_.clients)) {
+  while (!game::is_interrupted && (!server_.is_joined() || server_.player_count() < options_.clients)) {
     if (now_s() > give_up_s) return false;
     serving_.exchange(0.02);
     if (server_.is_joined()) serving_.send(0.0, not_started_s, uncounted);
     serving_.host().advance_clock(now_s());
   }
   server_.call_to_start();
-  while (!is_interrupted && !server_.is_started()) {
+  while (!game::is_interrupted && !server_.is_started()) {
     if (now_s() > give_up_s) return false;
     serving_.exchange(0.005);
     serving_.send(0.0, not_started_s, uncounted);
@@ -164,13 +162,13 @@ void ServerProcess::run() {
   const std::uint64_t last = options_.duration_s > 0.0 ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9)) : ~0ull;
   bool is_measuring = false;
   double measured_from_s = start_s_;
-  for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.trouble().empty(); ++number) {
+  for (std::uint64_t number = 0; number <= last && !game::is_interrupted && server_.trouble().empty(); ++number) {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous")
       await_turns();
     else
       exchange_until(start_s_ + simulated_s);
-    if (is_interrupted || !server_.trouble().empty()) break;
+    if (game::is_interrupted || !server_.trouble().empty()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
@@ -183,7 +181,7 @@ void ServerProcess::run() {
 }
 
 void ServerProcess::end() {
-  const double give_up_s = now_s() + (is_interrupted ? 0.0 : 2.0);
+  const double give_up_s = now_s() + (game::is_interrupted ? 0.0 : 2.0);
   while (server_.player_count() > 0 && now_s() < give_up_s) serving_.exchange(0.01);
   if (options_.hosted.empty()) return;
   server_.finish_record();
@@ -215,7 +213,7 @@ std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneCho
 Json ServerProcess::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
   std::string why_invalid = server_.trouble();
-  if (is_interrupted) why_invalid = "interrupted";
+  if (game::is_interrupted) why_invalid = "interrupted";
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
   Json report{{"mode", "client-server"},
               {"scheme", options_.scheme},
@@ -317,7 +315,7 @@ game::ExitStatus serve(game::ServeOptions& options) {
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   if (evidence) game::write_evidence(options.evidence, *evidence);
   if (!options.record.empty() && options.hosted.empty()) game::write_key_log(options.record, log);
-  if (is_interrupted) return game::ExitStatus::interrupted;
+  if (game::is_interrupted) return game::ExitStatus::interrupted;
   if (!is_complete) {
     spdlog::error("{} of {} players came within {} s", process.server().player_count(), options.clients, options.patience_s);
     return game::ExitStatus::nobody_came;
@@ -353,8 +351,6 @@ int main(int count, char** values) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
   host_by_default(app, options);
-  std::signal(SIGINT, [](int) { is_interrupted = 1; });
-  std::signal(SIGTERM, [](int) { is_interrupted = 1; });
-  std::signal(SIGPIPE, SIG_IGN);
+  game::hear_interrupts();
   return static_cast<int>(serve_or_explain(options));
 }

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "game/match/replay_match.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
+#include "game/net/interrupt.h"
 #include "game/net/joined_match.h"
 #include "game/view/application.h"
 #include "game/view/host_process.h"
@@ -33,8 +33,6 @@ using namespace rink;
 using view::MatchWish;
 
 constexpr double offscreen_frame_s = 1.0 / 60.0, shortest_frame_s = 1.0 / 250.0;  // the latter where the driver does not wait for the screen
-
-volatile std::sig_atomic_t is_interrupted = 0;
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -218,7 +216,7 @@ void Process::run_in_window(const view::WindowSize& size) {
   const Opened opened(*this, &window);
   const double start_s = now_s();
   bool is_ended = false;
-  while (!application_->wants_to_quit() && !is_ended && !is_interrupted) {
+  while (!application_->wants_to_quit() && !is_ended && !game::is_interrupted) {
     const double begin_s = now_s();
     for (const view::WindowEvent& event : window.events()) interface_->hear(event), application_->hear(event);
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
@@ -247,7 +245,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
   const double start_s = now_s();
   const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty();
   bool is_ended = false;
-  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && !is_interrupted && next_step_ < script_.size(); ++frame) {
+  for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && !game::is_interrupted && next_step_ < script_.size(); ++frame) {
     const double now = static_cast<double>(frame) * offscreen_frame_s;
     if (is_shared && start_s + now > now_s()) std::this_thread::sleep_for(std::chrono::duration<double>(start_s + now - now_s()));
     const auto due = view::due_steps(script_, next_step_, now);
@@ -279,14 +277,13 @@ game::ExitStatus play(const view::PlayOptions& options) {
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
   else process.run_in_window(*size);
-  return is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
+  return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 
 }  // namespace
 
 int main(int count, char** values) {
-  std::signal(SIGPIPE, SIG_IGN);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { is_interrupted = 1; });  // records are written, the server is told, a hosted one ended
+  game::hear_interrupts();
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
   view::PlayOptions options;
   view::add_options(app, options);
