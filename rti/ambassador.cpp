@@ -9,29 +9,12 @@
 
 namespace rink::rti {
 
-Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience)
-    : fom_(fom), callbacks_(callbacks), patience_(patience), outgoing_(frame_max_to_rti) {}
-
-void Ambassador::join(std::string_view federation, std::string_view federate_name, std::string_view federate_type) {
-  assert(phase_ == Phase::idle);
-  phase_ = Phase::joining;
-  JoinMessage message;
-  message.fom_hash = fom_.hash();
-  message.federation = federation;
-  message.name = federate_name;
-  message.type = federate_type;
-  say(message);
-  outgoing_.close_frame();  // before it is let in, a federate may only send short frames
-}
-
-void Ambassador::resign() {
-  if (phase_ == Phase::joining || phase_ == Phase::joined) say(ResignMessage{});
-  phase_ = Phase::ended;
-}
-
-void Ambassador::register_synchronization_point(std::string_view label) { say(RegisterSynchronizationPointMessage{label}); }
-void Ambassador::synchronization_point_achieved(std::string_view label) { say(SynchronizationPointAchievedMessage{label}); }
-void Ambassador::watch_federates() { say(WatchFederatesMessage{}); }
+Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
+    : fom_(fom),
+      queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
+      callbacks_(queue_ ? *queue_ : callbacks),
+      patience_(patience),
+      outgoing_(frame_max_to_rti) {}
 
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
   assert(fom_.attributes(object_class).includes(attributes));
@@ -205,7 +188,8 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 }
 
 std::size_t Ambassador::memory_bytes() const {
-  return own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.capacity() * sizeof regions_[0] + free_regions_.capacity() * sizeof free_regions_[0] +
+  const std::size_t waiting = held_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
+  return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.capacity() * sizeof regions_[0] + free_regions_.capacity() * sizeof free_regions_[0] +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes();
 }
 

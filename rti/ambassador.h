@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "im/filter.h"
+#include "rti/callbacks/callback_queue.h"
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/frame.h"
@@ -39,19 +41,26 @@ struct AmbassadorCounters {
 class Ambassador {
  public:
   /// Both must outlive the ambassador.
-  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {});
+  Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {}, CallbackModel model = CallbackModel::immediate);
 
   const Fom& fom() const { return fom_; }
 
-  /// Federation management. `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at once; objects and
-  /// interactions only `joined`. After `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
+  /// Federation management. These three ask the host, before the join; answered by `federation_execution_created`, `…_destroyed` and
+  /// `report_federation_executions`. The new execution has this ambassador's object model, which the host must offer. Throw FederateAlreadyExecutionMember.
+  void create_federation_execution(std::string_view federation);
+  void destroy_federation_execution(std::string_view federation);
+  void list_federation_executions();
+  /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at once; objects and interactions only `joined`.
+  /// Throws FederateAlreadyExecutionMember. After `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
   void join(std::string_view federation, std::string_view federate_name, std::string_view federate_type);
   void resign();
   bool is_joined() const { return phase_ == Phase::joined; }
   FederateHandle federate() const { return federate_; }
-  /// All federates that are joined when the RTI hears of it form the set; each is told and must achieve it. At most 255 bytes.
-  void register_synchronization_point(std::string_view label);
-  void synchronization_point_achieved(std::string_view label);
+  /// `synchronization_point_registration_succeeded` or `…_failed` follows. Who is in `members` is told and must achieve it; an empty set is all who are joined,
+  /// those included who join before it is reached. Who leaves is no longer waited for. Label at most 255 bytes, tag 1,024.
+  void register_synchronization_point(std::string_view label, Bytes tag = {}, std::span<const FederateHandle> members = {});
+  /// Once for each announced label; throws SynchronizationPointLabelNotAnnounced. Without success the federate is among those that failed.
+  void synchronization_point_achieved(std::string_view label, bool is_success = true);
   /// Asks to be told who is there, who comes and who goes.
   void watch_federates();
 
@@ -88,6 +97,15 @@ class Ambassador {
   /// Its subscriptions end; objects that use it return to the default region.
   void delete_region(RegionHandle region);
 
+  /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
+  /// wait. In the immediate model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its connection. Throw CallNotAllowedFromWithinCallback.
+  bool evoke_callback();
+  bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0});
+  /// From now on the federate is told nothing, in either model, until callbacks are enabled again: in the immediate model all at once, within this call.
+  void disable_callbacks() { are_callbacks_enabled_ = false; }
+  void enable_callbacks();
+  static constexpr std::size_t waiting_callbacks_max = 64u << 20;
+
   /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has explained: close the connection.
   bool receive(Bytes bytes);
   /// What must go to the RTI, and that it has gone.
@@ -109,14 +127,23 @@ class Ambassador {
     std::uint16_t object_class = unknown;
     bool is_own = false;
   };
+  /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
   template <class Message>
   void say(Message message);
+  template <class Message>
+  void append(Message& message);
+  [[noreturn]] void refuse_stranger() const;
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
   KnownObject* find(ObjectHandle object);
   bool take_frame(Bytes frame);
   bool take_message(Reader& reader);
   bool take_membership(Reader& reader, std::uint8_t kind);
-  bool take_synchronization(Reader& reader, std::uint8_t kind);
+  // Federation management (ambassador_management.cpp).
+  template <class Message>
+  void ask(Message message);
+  bool take_synchronization(Reader& reader, MessageKind kind);
+  bool take_host_answer(Reader& reader, MessageKind kind);
+  bool take_execution(Reader& reader);
   bool take_federate(Reader& reader, std::uint8_t kind);
   bool take_object(Reader& reader, std::uint8_t kind);
   bool take_scope(Reader& reader, std::uint8_t kind);
@@ -124,10 +151,16 @@ class Ambassador {
   bool take_updates(Reader& reader);
   bool take_interaction(Reader& reader);
   void lose(std::string_view why);
+  bool hold(Bytes bytes);
+  bool take_bytes(Bytes bytes);
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
   const Fom& fom_;
-  FederateAmbassador& callbacks_;
+  std::unique_ptr<CallbackQueue> queue_;  ///< null in the immediate model, which pays nothing for it
+  FederateAmbassador& callbacks_;         ///< the federate, or the queue before it
+  bool are_callbacks_enabled_ = true;
+  std::vector<std::byte> held_;           ///< what came while callbacks were disabled in the immediate model
+  std::string held_loss_;                 ///< and why the connection was lost
   Patience patience_;
   Phase phase_ = Phase::idle;
   FederateHandle federate_;
@@ -137,6 +170,9 @@ class Ambassador {
   std::vector<im::Region> regions_;  ///< by handle
   std::vector<std::uint32_t> free_regions_;
   std::vector<std::byte> region_records_;
+  std::vector<std::string> announced_points_;  ///< synchronisation points that we have not achieved yet
+  std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
+  bool has_asked_ = false;                     ///< the host, before the join
   FrameWriter outgoing_;
   FrameReader incoming_;
   /// The block of updates that still grows at the end of `outgoing_`, if any.
@@ -158,7 +194,12 @@ class Ambassador {
 
 template <class Message>
 void Ambassador::say(Message message) {
-  assert(phase_ == Phase::joining || phase_ == Phase::joined);
+  if (phase_ != Phase::joining && phase_ != Phase::joined) refuse_stranger();
+  append(message);
+}
+
+template <class Message>
+void Ambassador::append(Message& message) {
   write(outgoing_.begin_message(measure(message)), message);
   outgoing_.appended();
   open_.is_open = false;

@@ -11,15 +11,23 @@ bool Ambassador::receive(Bytes bytes) {
   if (phase_ == Phase::ended) return true;
   has_heard_ = true;
   counters_.bytes_received += bytes.size();
+  return are_callbacks_enabled_ || queue_ ? take_bytes(bytes) : hold(bytes);
+}
+
+bool Ambassador::take_bytes(Bytes bytes) {
   const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); });
   if (!is_understood) lose("the RTI sent what this version does not understand");
-  return is_understood;
+  return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max || (lose("too many callbacks wait to be evoked"), false));
 }
 
 void Ambassador::disconnected(std::string_view why) { lose(why); }
 
 void Ambassador::lose(std::string_view why) {
-  if (phase_ == Phase::ended || phase_ == Phase::idle) return;
+  if (phase_ == Phase::ended || (phase_ == Phase::idle && !has_asked_)) return;
+  if (!are_callbacks_enabled_ && !queue_) {
+    held_loss_ = why;  // after what was heard before
+    return;
+  }
   phase_ = Phase::ended;
   callbacks_.connection_lost(why);
 }
@@ -38,11 +46,13 @@ bool Ambassador::take_message(Reader& reader) {
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
   if (name == MessageKind::joined || name == MessageKind::refused) return take_membership(reader, kind);
+  if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
   if (phase_ != Phase::joined) return false;
   switch (name) {
     case MessageKind::heartbeat: return true;
+    case MessageKind::synchronization_point_registered:
     case MessageKind::announce_synchronization_point:
-    case MessageKind::federation_synchronized: return take_synchronization(reader, kind);
+    case MessageKind::federation_synchronized: return take_synchronization(reader, name);
     case MessageKind::federate_joined:
     case MessageKind::federate_resigned: return take_federate(reader, kind);
     case MessageKind::discover_object:
@@ -71,14 +81,6 @@ bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
   federate_ = {message.federate};
   object_block_ = message.object_block;
   callbacks_.joined(federate_);
-  return true;
-}
-
-bool Ambassador::take_synchronization(Reader& reader, std::uint8_t kind) {
-  AnnounceSynchronizationPointMessage message;
-  if (!exchange(reader, message)) return false;
-  if (static_cast<MessageKind>(kind) == MessageKind::announce_synchronization_point) callbacks_.announce_synchronization_point(message.label);
-  else callbacks_.federation_synchronized(message.label);
   return true;
 }
 

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "rti/fom/attribute_set.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
+#include "rti/hla_error.h"
 #include "rti/membership.h"
 
 namespace rink::rti {
@@ -16,6 +20,13 @@ struct Stamp {
   double time = 0.0;      ///< logical time [s], the sender's
   std::uint64_t tag = 0;  ///< the sender's user-supplied tag; the RTI only carries it
   friend bool operator==(const Stamp&, const Stamp&) = default;
+};
+
+/// One federation execution of a host.
+struct FederationExecutionInformation {
+  std::string federation, model;  ///< its name and that of its object model
+  std::uint32_t federates = 0;    ///< joined now
+  friend bool operator==(const FederationExecutionInformation&, const FederationExecutionInformation&) = default;
 };
 
 /// All bodies are empty: override what matters. Views handed in are valid during the call. Callbacks may call any service of the ambassador
@@ -29,8 +40,16 @@ class FederateAmbassador {
   /// The RTI is silent or gone, or sent what nobody understands; nothing more will arrive.
   virtual void connection_lost(std::string_view /*why*/) {}
 
-  virtual void announce_synchronization_point(std::string_view /*label*/) {}
-  virtual void federation_synchronized(std::string_view /*label*/) {}
+  /// Federation management: what became of `create_federation_execution` and `destroy_federation_execution`; `HlaError::none` if it was done.
+  virtual void federation_execution_created(std::string_view /*federation*/, HlaError) {}
+  virtual void federation_execution_destroyed(std::string_view /*federation*/, HlaError) {}
+  /// Answers `list_federation_executions`.
+  virtual void report_federation_executions(const std::vector<FederationExecutionInformation>&) {}
+  virtual void synchronization_point_registration_succeeded(std::string_view /*label*/) {}
+  virtual void synchronization_point_registration_failed(std::string_view /*label*/, SynchronizationFailure) {}
+  virtual void announce_synchronization_point(std::string_view /*label*/, Bytes /*tag*/) {}
+  /// `failed` are those of the set who said that they could not achieve it.
+  virtual void federation_synchronized(std::string_view /*label*/, std::span<const FederateHandle> /*failed*/) {}
 
   /// Told after `Ambassador::watch_federates`: first of all who are there (the watcher too), then of those who come and go.
   virtual void federate_joined(FederateHandle, std::string_view /*name*/, std::string_view /*type*/) {}

@@ -50,6 +50,8 @@ void FederationExecution::match() {
 }
 
 void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
+const std::string& FederationExecution::name() const { return parts_->settings_.federation; }
+const Fom& FederationExecution::fom() const { return parts_->fom_; }
 std::size_t FederationExecution::federate_count() const { return parts_->federate_count_; }
 std::size_t FederationExecution::object_count() const { return parts_->objects_.size(); }
 const FederationCounters& FederationExecution::counters() const { return parts_->counters_; }

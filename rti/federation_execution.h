@@ -11,6 +11,7 @@
 
 #include "im/filter.h"
 #include "rti/ambassador.h"
+#include "rti/central_component.h"
 #include "rti/wire/bytes.h"
 #include "rti/federation_services.h"
 #include "rti/fom/fom.h"
@@ -61,37 +62,29 @@ struct SubscribedRegion {
   im::Region bounds;
 };
 
-/// Where `flush` leaves what must go out.
-class Outlet {
- public:
-  virtual ~Outlet() = default;
-  /// Everything for one destination, at most once per flush. The parts are valid during the call.
-  virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
-  /// Close it once the bytes sent before are on their way; the federation execution has forgotten it already.
-  virtual void drop(ConnectionId connection, std::string_view why) = 0;
-};
-
 /// Owns federates, declarations, objects with their latest values, synchronisation points and regions. A tick is: any number of `receive`,
 /// then `match`, which alone decides who hears of what, then `flush`. Connections that break a rule are forgotten at once, counted by reason,
 /// and handed to `Outlet::drop` by the next flush; nobody else notices more than a lost federate.
-class FederationExecution {
+class FederationExecution final : public CentralComponent {
  public:
   /// `fom` must outlive it. Throws std::invalid_argument naming the known filters if there is none called `settings.filter`.
   FederationExecution(const Fom& fom, const FederationSettings& settings, const FederationServices& services = {});
-  ~FederationExecution();
+  ~FederationExecution() override;
   FederationExecution(const FederationExecution&) = delete;
   FederationExecution& operator=(const FederationExecution&) = delete;
 
   /// Connection ids may be any numbers that are not connected now; small ones are dense.
-  void connect(ConnectionId connection);
-  void receive(ConnectionId connection, Bytes bytes);
-  void disconnect(ConnectionId connection, std::string_view why);
+  void connect(ConnectionId connection) override;
+  void receive(ConnectionId connection, Bytes bytes) override;
+  void disconnect(ConnectionId connection, std::string_view why) override;
   /// `now` [s] never decreases. Drops who has been silent for too long.
-  void advance_clock(double now);
+  void advance_clock(double now) override;
   /// Runs the filter and turns its changes into scope changes.
-  void match();
-  void flush(Outlet& outlet);
+  void match() override;
+  void flush(Outlet& outlet) override;
 
+  const std::string& name() const;
+  const Fom& fom() const;
   std::size_t federate_count() const;
   std::size_t object_count() const;
   /// True if `federate` is told of `object` since the last match; for tests against brute force.

@@ -70,6 +70,7 @@ void for_each_record(const UpdateRun& run, const FederateInterest& interest, Vis
 }  // namespace
 
 void FederationExecution::Parts::flush(Outlet& outlet) {
+  send_answers(outlet);
   runs_.seal();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     if (federates_[slot].is_joined) flush_federate(slot, outlet);

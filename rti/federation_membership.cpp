@@ -36,7 +36,7 @@ void FederationExecution::Parts::disconnect(ConnectionId connection, std::string
   if (connection >= connections_.size()) return;
   if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, ResignReason::lost);
   connections_[connection] = {};
-  std::erase_if(farewells_, [connection](const Farewell& each) { return each.connection == connection; });
+  for (std::vector<Farewell>* words : {&answers_, &farewells_}) std::erase_if(*words, [connection](const Farewell& each) { return each.connection == connection; });
 }
 
 void FederationExecution::Parts::advance_clock(double now) {
@@ -73,11 +73,7 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
 
 void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal) {
   expel(connection, Violation::refused, ResignReason::misbehaved, to_string(refusal));
-  FrameWriter frame(frame_max_to_federate);
-  RefusedMessage message{static_cast<std::uint8_t>(refusal), to_string(refusal)};
-  write(frame.begin_message(measure(message)), message);
-  frame.appended();
-  farewells_.back().bytes.assign(frame.bytes().begin(), frame.bytes().end());
+  farewells_.back().bytes = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), to_string(refusal)});
 }
 
 std::uint32_t FederationExecution::Parts::take_federate_slot() {
@@ -120,6 +116,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   say(federate.control, JoinedMessage{federate.handle.value, federate.block});
   for (Federate& other : federates_)
     if (other.is_watching) say(other.control, FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
+  join_points(slot);
 }
 
 void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
@@ -146,50 +143,6 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::watch(Federate& 
   for (const Federate& other : federates_)
     if (other.is_joined) say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
   return std::nullopt;
-}
-
-FederationExecution::Parts::Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t) {
-  RegisterSynchronizationPointMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  for (const SynchronizationPoint& point : points_)
-    if (point.label == message.label) return std::nullopt;  // it is under way: both ask for the same
-  if (points_.size() == synchronization_point_max) return Violation::over_limit;
-  SynchronizationPoint& point = points_.emplace_back();
-  point.label = message.label;
-  for (std::uint32_t i = 0; i < federates_.size(); ++i) {
-    if (!federates_[i].is_joined) continue;
-    point.members.push_back(i);
-    say(federates_[i].control, AnnounceSynchronizationPointMessage{message.label});
-  }
-  point.awaited = point.members;
-  return std::nullopt;
-}
-
-FederationExecution::Parts::Outcome FederationExecution::Parts::achieve_point(Reader& reader, std::uint32_t slot) {
-  SynchronizationPointAchievedMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  for (SynchronizationPoint& point : points_) {
-    if (point.label != message.label) continue;
-    std::erase(point.awaited, slot);
-    complete_points();
-    return std::nullopt;
-  }
-  return Violation::unknown_name;
-}
-
-void FederationExecution::Parts::leave_points(std::uint32_t slot) {
-  for (SynchronizationPoint& point : points_) {
-    std::erase(point.members, slot);
-    std::erase(point.awaited, slot);
-  }
-  complete_points();
-}
-
-void FederationExecution::Parts::complete_points() {
-  for (const SynchronizationPoint& point : points_)
-    if (point.awaited.empty())
-      for (const std::uint32_t member : point.members) say(federates_[member].control, FederationSynchronizedMessage{point.label});
-  std::erase_if(points_, [](const SynchronizationPoint& point) { return point.awaited.empty(); });
 }
 
 }  // namespace rink::rti

@@ -9,6 +9,7 @@
 #include "rti/federation_execution.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation_services.h"
+#include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
@@ -51,8 +52,11 @@ class FederationExecution::Parts {
   };
   struct SynchronizationPoint {
     std::string label;
-    std::vector<std::uint32_t> members;  ///< slots of federates that were joined when it was registered
+    std::vector<std::byte> tag;
+    bool is_for_all = false;             ///< who joins before it is reached belongs to it
+    std::vector<std::uint32_t> members;  ///< slots of the federates in its set
     std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
+    std::vector<FederateHandle> failed;  ///< those who said that they could not
   };
   using Outcome = std::optional<Violation>;  ///< nothing: all is well
   static constexpr std::size_t synchronization_point_max = 256;
@@ -69,8 +73,17 @@ class FederationExecution::Parts {
   void remove_federate(std::uint32_t slot, ResignReason reason);
   void expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why);
   Outcome watch(Federate& federate);
+
+  // Federation management (federation_management.cpp).
+  Outcome answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader);
+  template <class Message>
+  void answer(ConnectionId connection, Message message);
+  void send_answers(Outlet& outlet);
   Outcome register_point(Reader& reader, std::uint32_t slot);
+  std::optional<SynchronizationFailure> find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
   Outcome achieve_point(Reader& reader, std::uint32_t slot);
+  void announce(const SynchronizationPoint& point, std::uint32_t slot);
+  void join_points(std::uint32_t slot);
   void leave_points(std::uint32_t slot);
   void complete_points();
 
@@ -140,7 +153,7 @@ class FederationExecution::Parts {
   std::unordered_map<std::string, std::uint32_t> names_;
   std::vector<SynchronizationPoint> points_;
   std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
-  std::vector<Farewell> farewells_;
+  std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;
   double now_ = 0.0;

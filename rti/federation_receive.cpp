@@ -37,8 +37,8 @@ Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
     }
     std::uint8_t kind = 0;
     reader.number(kind);
-    if (static_cast<MessageKind>(kind) != MessageKind::join) return Violation::wrong_phase;
-    if (const Outcome outcome = join(id, reader)) return outcome;
+    const bool is_join = static_cast<MessageKind>(kind) == MessageKind::join;
+    if (const Outcome outcome = is_join ? join(id, reader) : answer_stranger(id, static_cast<MessageKind>(kind), reader)) return outcome;
   }
   return std::nullopt;
 }

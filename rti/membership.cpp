@@ -15,6 +15,14 @@ const char* to_string(Refusal refusal) {
   return "unknown refusal";
 }
 
+const char* to_string(SynchronizationFailure failure) {
+  switch (failure) {
+    case SynchronizationFailure::label_not_unique: return "label not unique";
+    case SynchronizationFailure::member_not_joined: return "a member of the set is not joined";
+  }
+  return "unknown failure";
+}
+
 const char* to_string(ResignReason reason) {
   switch (reason) {
     case ResignReason::resigned: return "resigned";

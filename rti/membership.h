@@ -17,6 +17,14 @@ enum class Refusal : std::uint8_t {
 /// A sentence that tells a user what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);
 
+/// Why a synchronisation point was not registered; the numbers are those on the wire.
+enum class SynchronizationFailure : std::uint8_t {
+  label_not_unique = 1,  ///< a point of that label has not been reached yet
+  member_not_joined,     ///< the set names one who is not joined
+};
+/// The standard's words, "label not unique".
+const char* to_string(SynchronizationFailure failure);
+
 /// How a federate left.
 enum class ResignReason : std::uint8_t {
   resigned,    ///< it said so

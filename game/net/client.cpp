@@ -120,7 +120,7 @@ void Client::receive_interest(rti::Bytes parameters) {
 
 void Client::end_turn() { ambassador_.send_interaction(model_.update, {}, {}); }
 
-void Client::announce_synchronization_point(std::string_view label) {
+void Client::announce_synchronization_point(std::string_view label, rti::Bytes) {
   if (label != start_barrier) return;
   is_called_ = true;
   reach_barrier_once_ready();
@@ -139,7 +139,7 @@ void Client::reach_barrier_once_ready() {
   }
 }
 
-void Client::federation_synchronized(std::string_view label) {
+void Client::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) {
   if (label == start_barrier && state_ == State::ready) state_ = State::playing;
 }
 

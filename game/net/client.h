@@ -106,8 +106,8 @@ class Client : public rti::FederateAmbassador {
  private:
   void join_refused(rti::Refusal refusal, std::string_view why) override;
   void connection_lost(std::string_view why) override;
-  void announce_synchronization_point(std::string_view label) override;
-  void federation_synchronized(std::string_view label) override;
+  void announce_synchronization_point(std::string_view label, rti::Bytes tag) override;
+  void federation_synchronized(std::string_view label, std::span<const rti::FederateHandle> failed) override;
   void discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle object_class, std::string_view name) override;
   void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) override;
   void attributes_in_scope(rti::ObjectHandle object) override;

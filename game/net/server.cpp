@@ -51,11 +51,22 @@ void Server::joined(rti::FederateHandle) {
 void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
 void Server::connection_lost(std::string_view why) { trouble_ = why; }
 
-void Server::call_to_start() { ambassador_.register_synchronization_point(start_barrier); }
+/// Those with a seat and the server: who only watches, or comes later, keeps nobody waiting.
+void Server::call_to_start() {
+  std::vector<rti::FederateHandle> members{ambassador_.federate()};
+  for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
+    if (seats_[federate]) members.push_back({federate});
+  ambassador_.register_synchronization_point(start_barrier, {}, members);
+}
 
-void Server::announce_synchronization_point(std::string_view label) { ambassador_.synchronization_point_achieved(label); }
+/// A player has left of whom the server had not heard yet.
+void Server::synchronization_point_registration_failed(std::string_view, rti::SynchronizationFailure failure) {
+  if (failure == rti::SynchronizationFailure::member_not_joined) call_to_start();
+}
 
-void Server::federation_synchronized(std::string_view label) { is_started_ = is_started_ || label == start_barrier; }
+void Server::announce_synchronization_point(std::string_view label, rti::Bytes) { ambassador_.synchronization_point_achieved(label); }
+
+void Server::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) { is_started_ = is_started_ || label == start_barrier; }
 
 void Server::federate_joined(rti::FederateHandle federate, std::string_view name, std::string_view type) {
   if (type != player_federate_type) return;

@@ -117,8 +117,9 @@ class Server : public rti::FederateAmbassador {
   void joined(rti::FederateHandle federate) override;
   void join_refused(rti::Refusal refusal, std::string_view why) override;
   void connection_lost(std::string_view why) override;
-  void federation_synchronized(std::string_view label) override;
-  void announce_synchronization_point(std::string_view label) override;
+  void federation_synchronized(std::string_view label, std::span<const rti::FederateHandle> failed) override;
+  void announce_synchronization_point(std::string_view label, rti::Bytes tag) override;
+  void synchronization_point_registration_failed(std::string_view label, rti::SynchronizationFailure failure) override;
   void federate_joined(rti::FederateHandle federate, std::string_view name, std::string_view type) override;
   void federate_resigned(rti::FederateHandle federate, std::string_view name, std::string_view type, rti::ResignReason reason) override;
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;

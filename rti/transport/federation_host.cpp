@@ -25,12 +25,12 @@ class FederationHost::Port final : public TransportListener {
   }
   void on_bytes(ConnectionId connection, Bytes bytes) override {
     has_heard_ = true;
-    host_.execution_.receive(numbers_[connection], bytes);
+    host_.core_.receive(numbers_[connection], bytes);
   }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
     has_heard_ = true;
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
-    host_.execution_.disconnect(numbers_[connection], detail.empty() ? to_string(reason) : detail);
+    host_.core_.disconnect(numbers_[connection], detail.empty() ? to_string(reason) : detail);
     if (reason == CloseReason::queue_full) ++host_.closed_by_full_queue_;
     --host_.connection_count_;
     host_.routes_[numbers_[connection]] = {};
@@ -61,7 +61,7 @@ class FederationHost::HostOutlet final : public Outlet {
   FederationHost& host_;
 };
 
-FederationHost::FederationHost(FederationExecution& execution) : execution_(execution) {}
+FederationHost::FederationHost(CentralComponent& core) : core_(core) {}
 FederationHost::~FederationHost() = default;
 
 void FederationHost::add(Transport& transport) { ports_.push_back(std::make_unique<Port>(*this, transport)); }
@@ -76,7 +76,7 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
   }
   routes_[number] = {&port, connection};
   ++connection_count_;
-  execution_.connect(number);
+  core_.connect(number);
   return number;
 }
 
@@ -96,7 +96,7 @@ void FederationHost::poll(Transport& transport) {
 
 void FederationHost::flush() {
   HostOutlet outlet(*this);
-  execution_.flush(outlet);
+  core_.flush(outlet);
 }
 
 }  // namespace rink::rti

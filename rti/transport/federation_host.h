@@ -1,4 +1,4 @@
-// Runs a federation execution on any number of transports at once: the server's own federate in process, its clients by TCP.
+// Runs a federation execution, or a directory of them, on any number of transports at once: the server's own federate in process, its clients by TCP.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rti/federation_execution.h"
+#include "rti/central_component.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -14,7 +14,7 @@ namespace rink::rti {
 /// A tick is `poll` (as often as wanted), `match`, `flush`.
 class FederationHost {
  public:
-  explicit FederationHost(FederationExecution& execution);
+  explicit FederationHost(CentralComponent& core);
   ~FederationHost();
 
   /// The transport must outlive the host. Its listening and connecting is its owner's business.
@@ -24,12 +24,11 @@ class FederationHost {
   void poll(std::chrono::nanoseconds longest_wait);
   /// The same from one transport alone, without waiting: what a federate beside us has answered needs no question to the kernel.
   void poll(Transport& transport);
-  void advance_clock(double now) { execution_.advance_clock(now); }
-  void match() { execution_.match(); }
+  void advance_clock(double now) { core_.advance_clock(now); }
+  void match() { core_.match(); }
   /// One write per destination; drops whom the execution wants dropped.
   void flush();
 
-  FederationExecution& execution() { return execution_; }
   std::size_t connection_count() const { return connection_count_; }
   /// Sum over the transports' connections, closed ones included.
   std::uint64_t closed_by_full_queue() const { return closed_by_full_queue_; }
@@ -43,9 +42,9 @@ class FederationHost {
   };
   ConnectionId admit(Port& port, ConnectionId connection);
 
-  FederationExecution& execution_;
+  CentralComponent& core_;
   std::vector<std::unique_ptr<Port>> ports_;
-  std::vector<Route> routes_;  ///< by the execution's connection number
+  std::vector<Route> routes_;  ///< by the core's connection number
   std::vector<ConnectionId> free_routes_;
   std::size_t connection_count_ = 0;
   std::uint64_t closed_by_full_queue_ = 0;

@@ -10,6 +10,7 @@
 #include "im/filter.h"
 #include "rti/fom/attribute_set.h"
 #include "rti/federate_ambassador.h"
+#include "rti/hla_error.h"
 #include "rti/wire/frame.h"
 #include "rti/handles.h"
 #include "rti/membership.h"
@@ -18,7 +19,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 4;
+inline constexpr std::uint16_t protocol_version = 5;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
@@ -35,11 +36,15 @@ enum class MessageKind : std::uint8_t {
   register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
   stamp,
   create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
-  // free: 20 to 27 federation management, 28 to 35 time, 36 to 45 ownership, 46 to 51 objects and declarations, 58 to 63 the connection
+  // federation management
+  create_federation_execution = 20, destroy_federation_execution = 21, list_federation_executions = 22,
+  // free: 23 to 27 federation management, 28 to 35 time, 36 to 45 ownership, 46 to 51 objects and declarations, 58 to 63 the connection
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
-  // free: 74 to 81 federation management, 82 to 91 time, 92 to 103 ownership, 104 to 111 objects and declarations, 112 to 117 regions, 118 to 127 the connection
+  // federation management
+  synchronization_point_registered = 74, federation_execution_created = 75, federation_execution_destroyed = 76, federation_execution = 77,
+  // free: 78 to 81 federation management, 82 to 91 time, 92 to 103 ownership, 104 to 111 objects and declarations, 112 to 117 regions, 118 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -78,21 +83,6 @@ bool exchange(Stream&, BareMessage<k>&) {
 using ResignMessage = BareMessage<MessageKind::resign>;
 using HeartbeatMessage = BareMessage<MessageKind::heartbeat>;
 using WatchFederatesMessage = BareMessage<MessageKind::watch_federates>;
-
-/// A message about one synchronisation point.
-template <MessageKind k>
-struct LabelMessage {
-  static constexpr MessageKind kind = k;
-  std::string_view label;
-};
-template <class Stream, MessageKind k>
-bool exchange(Stream& stream, LabelMessage<k>& message) {
-  return stream.text(message.label, text_max);
-}
-using RegisterSynchronizationPointMessage = LabelMessage<MessageKind::register_synchronization_point>;
-using SynchronizationPointAchievedMessage = LabelMessage<MessageKind::synchronization_point_achieved>;
-using AnnounceSynchronizationPointMessage = LabelMessage<MessageKind::announce_synchronization_point>;
-using FederationSynchronizedMessage = LabelMessage<MessageKind::federation_synchronized>;
 
 /// An empty set withdraws.
 struct PublishObjectClassMessage {

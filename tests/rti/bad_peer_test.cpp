@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
@@ -196,7 +197,7 @@ std::vector<Crime> crimes() {
       {"UnknownRegion", Violation::unknown_name, frame_of(DeleteRegionMessage{3})},
       {"InvertedRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, inverted})},
       {"InfiniteRegion", Violation::malformed, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, infinite})},
-      {"UnknownLabel", Violation::unknown_name, frame_of(SynchronizationPointAchievedMessage{"nothing"})},
+      {"UnknownLabel", Violation::unknown_name, frame_of(SynchronizationPointAchievedMessage{"nothing", 1})},
   };
 }
 
@@ -278,7 +279,7 @@ std::vector<std::byte> recorded_session() {
                              ModifyRegionsMessage{1, bounds}, SubscribeObjectClassMessage{vessel_number, both.bits, 0},
                              RegisterObjectMessage{object_block, vessel_number, "Aurora"}, AssociateRegionMessage{object_block, 0}, StampMessage{}, updates,
                              PublishInteractionClassMessage{1, 1}, SubscribeInteractionClassMessage{1, 1}, InteractionMessage{1, FederateHandle::none, {}, words},
-                             RegisterSynchronizationPointMessage{"start"}, SynchronizationPointAchievedMessage{"start"});
+                             RegisterSynchronizationPointMessage{"start", {}, {}}, SynchronizationPointAchievedMessage{"start", 1});
   const auto end = frame_of(HeartbeatMessage{}, DeleteRegionMessage{0}, DeleteObjectMessage{object_block}, ResignMessage{});
   session.insert(session.end(), rest.begin(), rest.end());
   session.insert(session.end(), end.begin(), end.end());

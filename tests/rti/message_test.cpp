@@ -5,6 +5,7 @@
 #include <array>
 #include <random>
 
+#include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
@@ -59,7 +60,6 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     join.fom_hash = dice.number<std::uint64_t>();
     join.federation = join.name = join.type = dice.text();
     expect_round_trip(join);
-    expect_round_trip(RegisterSynchronizationPointMessage{dice.text()});
     expect_round_trip(PublishObjectClassMessage{u16(), u32()});
     expect_round_trip(SubscribeObjectClassMessage{u16(), u32(), u32()});
     expect_round_trip(PublishInteractionClassMessage{u16(), static_cast<std::uint8_t>(u16() % 2)});
@@ -76,6 +76,25 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(RefusedMessage{static_cast<std::uint8_t>(u32()), dice.text()});
     expect_round_trip(FederateJoinedMessage{u32(), dice.text(), dice.text()});
     expect_round_trip(FederateResignedMessage{u32(), static_cast<std::uint8_t>(u32() % 3), dice.text(), dice.text()});
+  }
+}
+
+TEST(Message, OfFederationManagementReadsBackAsItWasWrittenAndNeverFromLess) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Dice dice{std::mt19937_64(seed), {}, {}};
+    const auto handles = static_cast<std::uint16_t>(dice.number<std::uint32_t>() % 5);
+    const std::vector<std::byte> tag(dice.number<std::uint32_t>() % 100), records(handles * sizeof(std::uint32_t));
+    expect_round_trip(RegisterSynchronizationPointMessage{dice.text(), tag, {handles, records}});
+    expect_round_trip(SynchronizationPointAchievedMessage{dice.text(), static_cast<std::uint8_t>(handles % 2)});
+    expect_round_trip(SynchronizationPointRegisteredMessage{dice.text(), static_cast<std::uint8_t>(handles % 3)});
+    expect_round_trip(AnnounceSynchronizationPointMessage{dice.text(), tag});
+    expect_round_trip(FederationSynchronizedMessage{dice.text(), {handles, records}});
+    expect_round_trip(CreateFederationExecutionMessage{dice.text(), dice.number<std::uint64_t>()});
+    expect_round_trip(DestroyFederationExecutionMessage{dice.text()});
+    expect_round_trip(FederationExecutionCreatedMessage{dice.text(), static_cast<std::uint8_t>(handles)});
+    expect_round_trip(FederationExecutionMessage{0, dice.text(), dice.text(), dice.number<std::uint32_t>()});
+    expect_round_trip(FederationExecutionMessage{1, {}, {}, 0});
   }
 }
 

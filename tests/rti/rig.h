@@ -112,8 +112,23 @@ class Recorder : public FederateAmbassador {
     log.push_back("refused: " + std::string(text));
   }
   void connection_lost(std::string_view why) override { lost = why; }
-  void announce_synchronization_point(std::string_view label) override { log.push_back("announced " + std::string(label)); }
-  void federation_synchronized(std::string_view label) override { log.push_back("synchronized " + std::string(label)); }
+  void announce_synchronization_point(std::string_view label, Bytes tag) override {
+    log.push_back("announced " + std::string(label) + (tag.empty() ? "" : " with " + text_of(tag)));
+  }
+  void federation_synchronized(std::string_view label, std::span<const FederateHandle> failed) override {
+    log.push_back("synchronized " + std::string(label));
+    for (const FederateHandle each : failed) log.back() += " without " + std::to_string(each.value);
+  }
+  void synchronization_point_registration_succeeded(std::string_view label) override { log.push_back("registered " + std::string(label)); }
+  void synchronization_point_registration_failed(std::string_view label, SynchronizationFailure failure) override {
+    log.push_back("not registered " + std::string(label) + ": " + to_string(failure));
+  }
+  void federation_execution_created(std::string_view federation, HlaError error) override { log.push_back("created " + std::string(federation) + to_string(error)); }
+  void federation_execution_destroyed(std::string_view federation, HlaError error) override { log.push_back("destroyed " + std::string(federation) + to_string(error)); }
+  void report_federation_executions(const std::vector<FederationExecutionInformation>& all) override {
+    log.push_back("listed");
+    for (const FederationExecutionInformation& each : all) log.back() += " " + each.federation + ":" + std::to_string(each.federates);
+  }
   void federate_joined(FederateHandle handle, std::string_view name, std::string_view) override { federates[handle.value] = name; }
   void federate_resigned(FederateHandle handle, std::string_view name, std::string_view, ResignReason reason) override {
     federates.erase(handle.value);

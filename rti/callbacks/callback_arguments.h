@@ -1,0 +1,91 @@
+// How the arguments of a callback are kept in a buffer of bytes and found again.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "rti/federate_ambassador.h"
+
+namespace rink::rti {
+
+/// Appends arguments, each at a multiple of `alignment`, so that a view of them can be handed out where they lie.
+class ArgumentWriter {
+ public:
+  static constexpr std::size_t alignment = alignof(std::max_align_t);
+  explicit ArgumentWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+
+  template <class Value>
+    requires std::is_trivially_copyable_v<Value>
+  void put(const Value& value) {
+    append(&value, sizeof value);
+  }
+  template <class Value>
+  void put(std::span<const Value> values) {
+    put(values.size());
+    append(values.data(), values.size_bytes());
+  }
+  void put(std::string_view text) { put(std::span(text.data(), text.size())); }
+  void put(const std::vector<FederationExecutionInformation>& executions) {
+    put(executions.size());
+    for (const FederationExecutionInformation& each : executions) put(std::string_view(each.federation)), put(std::string_view(each.model)), put(each.federates);
+  }
+
+ private:
+  void append(const void* from, std::size_t size) {
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + (size + alignment - 1) / alignment * alignment);
+    if (size > 0) std::memcpy(bytes_.data() + end, from, size);
+  }
+  std::vector<std::byte>& bytes_;
+};
+
+/// Takes them in the same order; views are into what is read.
+class ArgumentReader {
+ public:
+  explicit ArgumentReader(const std::byte* at) : at_(at) {}
+
+  template <class Value>
+  Value take() {
+    return take(static_cast<std::type_identity<Value>*>(nullptr));
+  }
+
+ private:
+  template <class Value>
+  Value take(std::type_identity<Value>*) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    Value value;
+    std::memcpy(static_cast<void*>(&value), advance(sizeof value), sizeof value);
+    return value;
+  }
+  template <class Value>
+  std::span<const Value> take(std::type_identity<std::span<const Value>>*) {
+    const auto count = take<std::size_t>();
+    return {reinterpret_cast<const Value*>(advance(count * sizeof(Value))), count};
+  }
+  std::string_view take(std::type_identity<std::string_view>*) {
+    const auto text = take<std::span<const char>>();
+    return {text.data(), text.size()};
+  }
+  std::vector<FederationExecutionInformation> take(std::type_identity<std::vector<FederationExecutionInformation>>*) {
+    std::vector<FederationExecutionInformation> executions(take<std::size_t>());
+    for (FederationExecutionInformation& each : executions) {
+      each.federation = take<std::string_view>();
+      each.model = take<std::string_view>();
+      each.federates = take<std::uint32_t>();
+    }
+    return executions;
+  }
+  const std::byte* advance(std::size_t size) {
+    const std::byte* here = at_;
+    at_ += (size + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment * ArgumentWriter::alignment;
+    return here;
+  }
+  const std::byte* at_;
+};
+
+}  // namespace rink::rti

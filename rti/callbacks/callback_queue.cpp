@@ -1,0 +1,25 @@
+// Delivers what a callback queue keeps.
+#include "rti/callbacks/callback_queue.h"
+
+#include <cassert>
+
+namespace rink::rti {
+
+void CallbackQueue::deliver_one() {
+  assert(!is_empty() && !is_delivering_);
+  Header header;
+  std::memcpy(&header, records_.data() + taken_, sizeof header);
+  const auto first = records_.begin() + static_cast<std::ptrdiff_t>(taken_);
+  delivering_.assign(first, first + static_cast<std::ptrdiff_t>(header.size));
+  taken_ += header.size;
+  if (taken_ == records_.size() || taken_ > records_.size() / 2) {
+    // Every byte moves at most once for each that was delivered.
+    records_.erase(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(taken_));
+    taken_ = 0;
+  }
+  is_delivering_ = true;
+  header.deliver(federate_, delivering_.data() + header_size);
+  is_delivering_ = false;
+}
+
+}  // namespace rink::rti

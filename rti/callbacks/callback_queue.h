@@ -1,0 +1,104 @@
+// Callbacks that wait until their federate asks for them: the evoked model of IEEE 1516.1-2010, 10.41.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "rti/callbacks/callback_arguments.h"
+#include "rti/federate_ambassador.h"
+
+namespace rink::rti {
+
+/// How a federate is told.
+enum class CallbackModel : std::uint8_t {
+  immediate,  ///< while bytes are received
+  evoked,     ///< when it calls `evoke_callback` or `evoke_multiple_callbacks`
+};
+
+/// Stands before a federate and writes down what it would have been told: the callback and a copy of its arguments, one after the other in one buffer, so nothing
+/// is allocated per callback once that has grown. Rejected: keeping the messages themselves and reading them late, for one message may be many callbacks (a block of
+/// updates, a grant with what was queued by time), and the ambassador would answer its peers late. Every callback is here; a test compares the two lists.
+class CallbackQueue final : public FederateAmbassador {
+ public:
+  /// `federate` must outlive it.
+  explicit CallbackQueue(FederateAmbassador& federate) : federate_(federate) {}
+
+  bool is_empty() const { return taken_ == records_.size(); }
+  std::size_t waiting_bytes() const { return records_.size() - taken_; }
+  std::size_t memory_bytes() const { return records_.capacity() + delivering_.capacity(); }
+  /// Tells the federate the oldest; there must be one. What the callback causes to be queued comes after all that waits.
+  void deliver_one();
+  bool is_delivering() const { return is_delivering_; }
+
+  void joined(FederateHandle federate) override { put<&FederateAmbassador::joined>(federate); }
+  void join_refused(Refusal refusal, std::string_view why) override { put<&FederateAmbassador::join_refused>(refusal, why); }
+  void connection_lost(std::string_view why) override { put<&FederateAmbassador::connection_lost>(why); }
+
+  // Federation management.
+  void federation_execution_created(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_created>(federation, error); }
+  void federation_execution_destroyed(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_destroyed>(federation, error); }
+  void report_federation_executions(const std::vector<FederationExecutionInformation>& executions) override {
+    put<&FederateAmbassador::report_federation_executions>(executions);
+  }
+  void synchronization_point_registration_succeeded(std::string_view label) override { put<&FederateAmbassador::synchronization_point_registration_succeeded>(label); }
+  void synchronization_point_registration_failed(std::string_view label, SynchronizationFailure failure) override {
+    put<&FederateAmbassador::synchronization_point_registration_failed>(label, failure);
+  }
+  void announce_synchronization_point(std::string_view label, Bytes tag) override { put<&FederateAmbassador::announce_synchronization_point>(label, tag); }
+  void federation_synchronized(std::string_view label, std::span<const FederateHandle> failed) override { put<&FederateAmbassador::federation_synchronized>(label, failed); }
+  void federate_joined(FederateHandle federate, std::string_view name, std::string_view type) override { put<&FederateAmbassador::federate_joined>(federate, name, type); }
+  void federate_resigned(FederateHandle federate, std::string_view name, std::string_view type, ResignReason reason) override {
+    put<&FederateAmbassador::federate_resigned>(federate, name, type, reason);
+  }
+
+  // Objects and interactions.
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+    put<&FederateAmbassador::discover_object_instance>(object, object_class, name);
+  }
+  void reflect_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) override {
+    put<&FederateAmbassador::reflect_attribute_values>(object, attributes, values, stamp);
+  }
+  void attributes_in_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_in_scope>(object); }
+  void attributes_out_of_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_out_of_scope>(object); }
+  void remove_object_instance(ObjectHandle object) override { put<&FederateAmbassador::remove_object_instance>(object); }
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const Stamp& stamp) override {
+    put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);
+  }
+
+ private:
+  /// A record: this, then the arguments, each at a multiple of `alignment`.
+  struct Header {
+    void (*deliver)(FederateAmbassador& federate, const std::byte* arguments);
+    std::size_t size;  ///< of the whole record [bytes]
+  };
+  static constexpr std::size_t header_size = (sizeof(Header) + ArgumentWriter::alignment - 1) / ArgumentWriter::alignment * ArgumentWriter::alignment;
+  /// Writes one callback at the end.
+  template <auto callback, class... Arguments>
+  void put(const Arguments&... arguments);
+
+  FederateAmbassador& federate_;
+  std::vector<std::byte> records_;
+  std::size_t taken_ = 0;               ///< bytes of `records_` that were delivered
+  std::vector<std::byte> delivering_;   ///< the record at hand: what its callback causes may move the others
+  bool is_delivering_ = false;
+};
+
+template <auto callback, class... Arguments>
+void CallbackQueue::put(const Arguments&... arguments) {
+  const std::size_t start = records_.size();
+  ArgumentWriter writer(records_);
+  writer.put(Header{});
+  (writer.put(arguments), ...);
+  const auto deliver = [](FederateAmbassador& federate, const std::byte* at) {
+    ArgumentReader reader(at);
+    const std::tuple<Arguments...> values{reader.take<Arguments>()...};  // in braces: from left to right
+    std::apply([&federate](const Arguments&... each) { (federate.*callback)(each...); }, values);
+  };
+  const Header header{deliver, records_.size() - start};
+  std::memcpy(records_.data() + start, &header, sizeof header);
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,35 @@
+// What a host of transports talks to: the RTI's central component, whether it holds one federation execution or many.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "rti/wire/bytes.h"
+
+namespace rink::rti {
+
+/// Where `flush` leaves what must go out.
+class Outlet {
+ public:
+  virtual ~Outlet() = default;
+  /// Everything for one destination, at most once per flush. The parts are valid during the call.
+  virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
+  /// Close it once the bytes sent before are on their way; the central component has forgotten it already.
+  virtual void drop(ConnectionId connection, std::string_view why) = 0;
+};
+
+/// Bytes and time in, bytes out; no I/O, no clock, no thread. A tick is any number of `receive`, then `match`, then `flush`.
+class CentralComponent {
+ public:
+  virtual ~CentralComponent() = default;
+  /// Connection ids may be any numbers that are not connected now; small ones are dense.
+  virtual void connect(ConnectionId connection) = 0;
+  virtual void receive(ConnectionId connection, Bytes bytes) = 0;
+  virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
+  /// `now` [s] never decreases.
+  virtual void advance_clock(double now) = 0;
+  virtual void match() = 0;
+  virtual void flush(Outlet& outlet) = 0;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,199 @@
+// Who asks for which federation execution, and the way there.
+#include "rti/federation_directory.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "rti/wire/federation_messages.h"
+
+namespace rink::rti {
+
+/// Passes on what executions send, and forgets whom they drop.
+class FederationDirectory::Usher final : public Outlet {
+ public:
+  Usher(FederationDirectory& directory, Outlet& outlet) : directory_(directory), outlet_(outlet) {}
+  void send(ConnectionId connection, std::span<const Bytes> parts) override { outlet_.send(connection, parts); }
+  void drop(ConnectionId connection, std::string_view why) override {
+    directory_.connections_[connection] = {};
+    outlet_.drop(connection, why);
+  }
+
+ private:
+  FederationDirectory& directory_;
+  Outlet& outlet_;
+};
+
+FederationDirectory::FederationDirectory(DirectorySettings settings) : settings_(std::move(settings)) {}
+FederationDirectory::~FederationDirectory() = default;
+
+void FederationDirectory::offer(const Fom& fom) { models_.push_back(&fom); }
+
+FederationExecution* FederationDirectory::find(std::string_view federation) const {
+  for (const auto& execution : executions_)
+    if (execution->name() == federation) return execution.get();
+  return nullptr;
+}
+
+HlaError FederationDirectory::create(std::string_view federation, std::uint64_t fom_hash) {
+  if (federation.empty()) return HlaError::illegal_name;
+  if (find(federation) != nullptr) return HlaError::federation_execution_already_exists;
+  if (executions_.size() >= settings_.execution_max) return HlaError::rti_internal_error;
+  const auto model = std::find_if(models_.begin(), models_.end(), [&](const Fom* each) { return each->hash() == fom_hash; });
+  if (model == models_.end()) return HlaError::could_not_open_fdd;
+  FederationSettings settings = settings_.federation;
+  settings.federation = federation;
+  executions_.push_back(std::make_unique<FederationExecution>(**model, settings));
+  executions_.back()->advance_clock(now_);
+  return HlaError::none;
+}
+
+HlaError FederationDirectory::destroy(std::string_view federation) {
+  const auto place = std::find_if(executions_.begin(), executions_.end(), [&](const auto& each) { return each->name() == federation; });
+  if (place == executions_.end()) return HlaError::federation_execution_does_not_exist;
+  if ((*place)->federate_count() > 0) return HlaError::federates_currently_joined;
+  destroyed_.push_back(std::move(*place));  // its last words go out with the next flush
+  executions_.erase(place);
+  return HlaError::none;
+}
+
+std::vector<FederationExecutionInformation> FederationDirectory::list() const {
+  std::vector<FederationExecutionInformation> list;
+  for (const auto& execution : executions_) list.push_back({execution->name(), execution->fom().name(), static_cast<std::uint32_t>(execution->federate_count())});
+  return list;
+}
+
+void FederationDirectory::connect(ConnectionId id) {
+  if (id >= connections_.size()) connections_.resize(id + 1);
+  connections_[id] = {};
+  connections_[id].is_connected = true;
+  connections_[id].last_heard = now_;
+}
+
+void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
+  if (id >= connections_.size() || !connections_[id].is_connected) return;
+  Connection& connection = connections_[id];
+  if (connection.execution != nullptr) return connection.execution->receive(id, bytes);
+  connection.has_spoken = true;
+  connection.waiting.insert(connection.waiting.end(), bytes.begin(), bytes.end());
+  if (!take_waiting(id)) drop(id);
+}
+
+/// False if a frame broke a rule. A batch of bytes is bounded by its transport, and no frame that is not whole is kept beyond what a stranger may send.
+bool FederationDirectory::take_waiting(ConnectionId id) {
+  Connection& connection = connections_[id];
+  std::size_t taken = 0;
+  while (connection.is_connected && connection.execution == nullptr) {
+    const Bytes rest = Bytes(connection.waiting).subspan(taken);
+    std::uint32_t size = 0;
+    if (rest.size() < frame_header_size) break;
+    std::memcpy(&size, rest.data(), sizeof size);
+    if (size == 0 || size > frame_max_to_join) return false;
+    if (rest.size() < frame_header_size + size) break;
+    const Bytes frame = rest.subspan(frame_header_size, size);
+    const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
+    if (is_join ? !lead(id, frame) : !take_frame(id, frame)) return false;
+    if (!is_join) taken += frame_header_size + size;
+  }
+  std::vector<std::byte> waiting = std::move(connection.waiting);
+  connection.waiting.clear();
+  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(taken));
+  if (connection.execution != nullptr) connection.execution->receive(id, waiting);
+  else if (connection.is_connected) connection.waiting = std::move(waiting);
+  return true;
+}
+
+bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
+  Reader reader(frame);
+  while (!reader.is_at_end()) {
+    std::uint8_t kind = 0;
+    reader.number(kind);
+    CreateFederationExecutionMessage creation;
+    DestroyFederationExecutionMessage destruction;
+    switch (static_cast<MessageKind>(kind)) {
+      case MessageKind::create_federation_execution:
+        if (!exchange(reader, creation)) return false;
+        answer(id, FederationExecutionCreatedMessage{creation.federation, static_cast<std::uint8_t>(create(creation.federation, creation.fom_hash))});
+        break;
+      case MessageKind::destroy_federation_execution:
+        if (!exchange(reader, destruction)) return false;
+        answer(id, FederationExecutionDestroyedMessage{destruction.federation, static_cast<std::uint8_t>(destroy(destruction.federation))});
+        break;
+      case MessageKind::list_federation_executions:
+        for (const FederationExecutionInformation& each : list()) answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
+        answer(id, FederationExecutionMessage{1, {}, {}, 0});
+        break;
+      default: return false;
+    }
+  }
+  return true;
+}
+
+/// From now on the connection is its execution's, the message of the join included.
+bool FederationDirectory::lead(ConnectionId id, Bytes frame) {
+  Reader reader(frame.subspan(1));
+  JoinMessage message;
+  if (!exchange(reader, message)) return false;
+  if (message.version != protocol_version) return refuse(id, Refusal::wrong_version), true;
+  FederationExecution* execution = find(message.federation);
+  if (execution == nullptr) return refuse(id, Refusal::wrong_federation), true;
+  connections_[id].execution = execution;
+  execution->connect(id);
+  return true;
+}
+
+void FederationDirectory::refuse(ConnectionId id, Refusal refusal) {
+  answer(id, RefusedMessage{static_cast<std::uint8_t>(refusal), to_string(refusal)});
+  drop(id);
+}
+
+template <class Message>
+void FederationDirectory::answer(ConnectionId id, Message message) {
+  answers_.push_back({id, framed(message)});
+}
+
+void FederationDirectory::drop(ConnectionId id) {
+  ++drops_;
+  connections_[id] = {};
+  answers_.push_back({id, {}, true});
+}
+
+void FederationDirectory::disconnect(ConnectionId id, std::string_view why) {
+  if (id >= connections_.size()) return;
+  if (connections_[id].execution != nullptr) connections_[id].execution->disconnect(id, why);
+  connections_[id] = {};
+  std::erase_if(answers_, [id](const Answer& each) { return each.connection == id; });
+}
+
+void FederationDirectory::advance_clock(double now) {
+  now_ = now;
+  for (const auto& execution : executions_) execution->advance_clock(now);
+  for (ConnectionId id = 0; id < connections_.size(); ++id) {
+    Connection& connection = connections_[id];
+    if (!connection.is_connected || connection.execution != nullptr) continue;
+    if (connection.has_spoken) connection.last_heard = now;
+    connection.has_spoken = false;
+    if (now - connection.last_heard > settings_.federation.patience.lost_after_s) drop(id);
+  }
+}
+
+void FederationDirectory::match() {
+  for (const auto& execution : executions_) execution->match();
+}
+
+void FederationDirectory::flush(Outlet& outlet) {
+  for (const Answer& each : answers_) {
+    const Bytes bytes = each.bytes;
+    if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
+    if (each.is_last) outlet.drop(each.connection, "it broke the protocol or was refused");
+  }
+  answers_.clear();
+  Usher usher(*this, outlet);
+  for (const auto& execution : executions_) execution->flush(usher);
+  for (const auto& execution : destroyed_) execution->flush(usher);
+  for (ConnectionId id = 0; !destroyed_.empty() && id < connections_.size(); ++id)
+    if (connections_[id].execution != nullptr && std::any_of(destroyed_.begin(), destroyed_.end(), [&](const auto& each) { return each.get() == connections_[id].execution; }))
+      usher.drop(id, "its federation execution was destroyed");
+  destroyed_.clear();
+}
+
+}  // namespace rink::rti

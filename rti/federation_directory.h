@@ -1,0 +1,77 @@
+// Several federation executions in one central component: created, listed and destroyed by name, each connection led to the one that it joins.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rti/federation_execution.h"
+
+namespace rink::rti {
+
+struct DirectorySettings {
+  FederationSettings federation;         ///< of every execution; the name is replaced
+  std::size_t execution_max = 64;        ///< that exist at once
+};
+
+/// A host of one fixed federation uses a `FederationExecution` instead and pays nothing for this. Here a federate pays one look-up per batch of bytes.
+/// Executions know nothing of each other: federates of one name, their handles and objects may be in several.
+class FederationDirectory final : public CentralComponent {
+ public:
+  explicit FederationDirectory(DirectorySettings settings = {});
+  ~FederationDirectory() override;
+
+  /// Executions may be created with this object model from now on; it must outlive the directory. A federate names it by its hash.
+  void offer(const Fom& fom);
+  /// What federates ask for, also to be called by the host itself. FederationExecutionAlreadyExists, CouldNotOpenFDD if no such model is offered, IllegalName for an
+  /// empty name, RTIinternalError beyond `execution_max`.
+  HlaError create(std::string_view federation, std::uint64_t fom_hash);
+  /// FederationExecutionDoesNotExist, FederatesCurrentlyJoined. The name is free at once.
+  HlaError destroy(std::string_view federation);
+  /// In the order of creation.
+  std::vector<FederationExecutionInformation> list() const;
+  /// Null if there is none of that name. Valid until it is destroyed and flushed.
+  FederationExecution* find(std::string_view federation) const;
+
+  void connect(ConnectionId connection) override;
+  void receive(ConnectionId connection, Bytes bytes) override;
+  void disconnect(ConnectionId connection, std::string_view why) override;
+  void advance_clock(double now) override;
+  void match() override;
+  void flush(Outlet& outlet) override;
+
+  /// Connections dropped here, before they were led to any execution.
+  std::uint64_t drops() const { return drops_; }
+
+ private:
+  class Usher;
+  struct Connection {
+    bool is_connected = false, has_spoken = false;
+    FederationExecution* execution = nullptr;  ///< null until it asks to join one
+    std::vector<std::byte> waiting;            ///< what came before that and is no whole frame
+    double last_heard = 0.0;
+  };
+  struct Answer {
+    ConnectionId connection;
+    std::vector<std::byte> bytes;
+    bool is_last = false;
+  };
+  bool take_waiting(ConnectionId id);
+  bool take_frame(ConnectionId id, Bytes frame);
+  bool lead(ConnectionId id, Bytes frame);
+  void refuse(ConnectionId id, Refusal refusal);
+  void drop(ConnectionId id);
+  template <class Message>
+  void answer(ConnectionId id, Message message);
+
+  DirectorySettings settings_;
+  std::vector<const Fom*> models_;
+  std::vector<std::unique_ptr<FederationExecution>> executions_, destroyed_;
+  std::vector<Connection> connections_;  ///< by id
+  std::vector<Answer> answers_;
+  std::uint64_t drops_ = 0;
+  double now_ = 0.0;
+};
+
+}  // namespace rink::rti
