@@ -47,6 +47,7 @@ void VirtualNetwork::dispatch(std::uint32_t parcel, std::int64_t instant_ns) {
 }
 
 void VirtualNetwork::arrive(std::uint32_t parcel) {
+  ++arrived_;
   VirtualEndpoint* receiver = parcels_[parcel].receiver;
   if (receiver == nullptr) return return_parcel(parcel);
   const ConnectionId connection = parcels_[parcel].connection;
@@ -76,11 +77,12 @@ void VirtualEndpoint::listen(const std::string& name) {
   name_ = name;
 }
 
-ConnectionId VirtualEndpoint::add_line(VirtualEndpoint* peer) {
+ConnectionId VirtualEndpoint::add_line(VirtualEndpoint* peer, const LineIdentity& identity) {
   Line& line = lines_.emplace_back();
   line.peer = peer;
   line.number = network_.next_line_++;
   line.is_open = peer != nullptr;
+  network_.model_.open_line(line.number, identity);
   return static_cast<ConnectionId>(lines_.size() - 1);
 }
 
@@ -95,9 +97,11 @@ std::uint32_t VirtualEndpoint::closing(ConnectionId connection, CloseReason reas
 }
 
 ConnectionId VirtualEndpoint::connect(const std::string& name) {
+  const std::uint32_t link = network_.link_counts_[name]++;
+  const LineIdentity there{name, link, LinkDirection::to_listener}, back{name, link, LinkDirection::from_listener};
   const auto found = network_.listeners_.find(name);
   if (found == network_.listeners_.end()) {
-    const ConnectionId refused = add_line(nullptr);
+    const ConnectionId refused = add_line(nullptr, there);
     const std::uint32_t parcel = closing(refused, CloseReason::refused);
     network_.parcels_[parcel].detail = "nobody listens at virtual address '" + name + "'";
     const std::int64_t there_ns = network_.model_.arrival_ns(lines_[refused].number, network_.now_ns(), 0);
@@ -105,7 +109,7 @@ ConnectionId VirtualEndpoint::connect(const std::string& name) {
     return refused;
   }
   VirtualEndpoint& peer = *found->second;
-  const ConnectionId ours = add_line(&peer), theirs = peer.add_line(this);
+  const ConnectionId ours = add_line(&peer, there), theirs = peer.add_line(this, back);
   lines_[ours].peer_connection = theirs;
   peer.lines_[theirs].peer_connection = ours;
   post(lines_[ours], network_.take_parcel(), VirtualNetwork::Kind::request);
@@ -113,13 +117,26 @@ ConnectionId VirtualEndpoint::connect(const std::string& name) {
 }
 
 void VirtualEndpoint::post(Line& line, std::uint32_t parcel, VirtualNetwork::Kind kind) {
-  if (line.peer == nullptr) return network_.return_parcel(parcel);
+  if (line.peer == nullptr || line.is_given_up) return network_.return_parcel(parcel);
   VirtualNetwork::Parcel& posted = network_.parcels_[parcel];
+  const Delivery delivery = network_.model_.deliver(line.number, network_.now_ns(), posted.bytes.size());
+  if (delivery.is_given_up) {
+    network_.return_parcel(parcel);
+    return give_up(line, delivery.instant_ns);
+  }
   posted.kind = kind;
   posted.connection = line.peer_connection;
   posted.receiver = line.peer;
-  line.last_ns = std::max(line.last_ns, network_.model_.arrival_ns(line.number, network_.now_ns(), posted.bytes.size()));
+  line.last_ns = std::max(line.last_ns, delivery.instant_ns);
   network_.dispatch(parcel, line.last_ns);
+}
+
+/// The peer hears nothing of it, as behind a cut cable.
+void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
+  line.is_given_up = true;
+  const std::uint32_t parcel = closing(static_cast<ConnectionId>(&line - lines_.data()), CloseReason::failed);
+  network_.parcels_[parcel].detail = "nothing got through: connection timed out";
+  network_.dispatch(parcel, instant_ns);
 }
 
 void VirtualEndpoint::poll(std::chrono::nanoseconds, TransportListener& listener) {
@@ -138,18 +155,35 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   Line& line = lines_[connection];
   const bool is_end = parcel.kind == Kind::close;
   if (!line.is_open && !is_end) return;  // what the peer said before is of no interest to one who closes
-  if (parcel.kind == Kind::request || parcel.kind == Kind::open) return listener.on_open(connection);
+  if (parcel.kind == Kind::request || parcel.kind == Kind::open) {
+    line.is_reported = true;
+    return listener.on_open(connection);
+  }
   if (is_end) {
-    if (!line.is_open && parcel.reason == CloseReason::closed_by_peer) return;  // we closed first and have been told
+    if (!line.is_open && (parcel.reason == CloseReason::closed_by_peer || parcel.reason == CloseReason::failed)) return;  // we closed first and have been told
     line.is_open = false;
     const std::string detail = parcel.detail;
     return listener.on_close(connection, parcel.reason, detail);
   }
+  const bool is_datagram = parcel.kind == Kind::datagram;
   delivering_.swap(parcel.bytes);  // callbacks may send, which may move the parcels
+  if (is_datagram) {
+    report_datagram(line, connection, listener);
+    return delivering_.swap(network_.parcels_[number].bytes);
+  }
   line.counters.bytes_received += delivering_.size();
   totals_.bytes_received += delivering_.size();
   listener.on_bytes(connection, delivering_);
   delivering_.swap(network_.parcels_[number].bytes);
+}
+
+void VirtualEndpoint::report_datagram(Line& line, ConnectionId connection, TransportListener& listener) {
+  if (!line.is_reported) return;
+  for (TransportCounters* counters : {&line.counters, &totals_}) {
+    ++counters->datagrams_received;
+    counters->datagram_bytes_received += delivering_.size();
+  }
+  listener.on_datagram(connection, delivering_);
 }
 
 void VirtualEndpoint::send(ConnectionId connection, std::span<const Bytes> parts) {
@@ -158,16 +192,56 @@ void VirtualEndpoint::send(ConnectionId connection, std::span<const Bytes> parts
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
   if (size == 0) return;
-  const std::uint32_t parcel = network_.take_parcel();
-  std::vector<std::byte>& bytes = network_.parcels_[parcel].bytes;
-  bytes.reserve(size);
-  for (const Bytes part : parts) bytes.insert(bytes.end(), part.begin(), part.end());
+  if (network_.model_.queued_bytes(line.number, network_.now_ns()) + size > network_.queue_max_) return overflow(connection);
+  const std::uint32_t parcel = packed(parts, size);
   for (TransportCounters* counters : {&line.counters, &totals_}) {
     counters->bytes_sent += size;
     counters->segments_sent += (size + 1447) / 1448;
     ++counters->writes;
   }
   post(line, parcel, VirtualNetwork::Kind::bytes);
+}
+
+std::uint32_t VirtualEndpoint::packed(std::span<const Bytes> parts, std::size_t size) {
+  const std::uint32_t parcel = network_.take_parcel();
+  std::vector<std::byte>& bytes = network_.parcels_[parcel].bytes;
+  bytes.reserve(size);
+  for (const Bytes part : parts) bytes.insert(bytes.end(), part.begin(), part.end());
+  return parcel;
+}
+
+std::size_t VirtualEndpoint::datagram_max(ConnectionId connection) const {
+  return network_.carries_datagrams_ && connection < lines_.size() && lines_[connection].is_open && lines_[connection].is_reported ? virtual_datagram_max : 0;
+}
+
+void VirtualEndpoint::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
+  if (datagram_max(connection) == 0 || lines_[connection].peer == nullptr) return;
+  Line& line = lines_[connection];
+  for (const auto& [head, body] : datagrams) {
+    const std::size_t size = head.size() + body.size();
+    assert(size <= virtual_datagram_max);
+    for (TransportCounters* counters : {&line.counters, &totals_}) {
+      ++counters->datagrams_sent;
+      counters->datagram_bytes_sent += size;
+    }
+    for (const std::int64_t instant_ns : network_.model_.datagram(line.number, network_.now_ns(), size)) {
+      const std::uint32_t number = packed(std::array{head, body}, size);
+      VirtualNetwork::Parcel& parcel = network_.parcels_[number];
+      parcel.kind = VirtualNetwork::Kind::datagram;
+      parcel.connection = line.peer_connection;
+      parcel.receiver = line.peer;
+      network_.dispatch(number, instant_ns);
+    }
+  }
+}
+
+void VirtualEndpoint::overflow(ConnectionId connection) {
+  Line& line = lines_[connection];
+  line.is_open = false;
+  post(line, network_.take_parcel(), VirtualNetwork::Kind::close);
+  const std::uint32_t parcel = closing(connection, CloseReason::queue_full);
+  network_.parcels_[parcel].detail = "the line is too slow for what is sent";
+  inbox_.push_back(parcel);
 }
 
 void VirtualEndpoint::close(ConnectionId connection) {
@@ -178,6 +252,11 @@ void VirtualEndpoint::close(ConnectionId connection) {
   inbox_.push_back(closing(connection, CloseReason::closed_by_us));
 }
 
-TransportCounters VirtualEndpoint::counters(ConnectionId connection) const { return connection < lines_.size() ? lines_[connection].counters : TransportCounters{}; }
+TransportCounters VirtualEndpoint::counters(ConnectionId connection) const {
+  if (connection >= lines_.size()) return {};
+  TransportCounters counters = lines_[connection].counters;
+  counters.queued_bytes = network_.model_.queued_bytes(lines_[connection].number, network_.now_ns());
+  return counters;
+}
 
 }  // namespace rink::rti

@@ -1,23 +1,65 @@
 // A network under a virtual clock: bytes arrive when a model of the link says so, in the same order in every run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
 
-/// Decides when what is sent arrives. Lines are reliable and ordered, as TCP's are, so whatever a model does to a packet shows as delay.
+enum class LinkDirection : std::uint8_t { to_listener, from_listener };
+
+/// Which line this is, whatever else is connected: the `link`-th to connect to `listener`, from 0, and the direction.
+struct LineIdentity {
+  std::string_view listener;
+  std::uint32_t link = 0;
+  LinkDirection direction = LinkDirection::to_listener;
+};
+
+/// What becomes of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up then.
+struct Delivery {
+  std::int64_t instant_ns = 0;
+  bool is_given_up = false;
+};
+
+/// When a datagram arrives: not at all, once or twice.
+class DatagramArrivals {
+ public:
+  void add(std::int64_t instant_ns) { instants_ns_[count_++] = instant_ns; }
+  const std::int64_t* begin() const { return instants_ns_.data(); }
+  const std::int64_t* end() const { return instants_ns_.data() + count_; }
+
+ private:
+  std::array<std::int64_t, 2> instants_ns_{};
+  std::size_t count_ = 0;
+};
+
+/// Decides when what is sent arrives. Lines are reliable and ordered, as TCP's are, so whatever a model does to a packet shows as delay; datagrams show it as it is.
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
   /// The instant [ns] at which `size` bytes sent at `now_ns` over `line` arrive, not before `now_ns`. Lines are numbered in order of connecting, each direction
-  /// apart, so that a model may seed a generator or keep a queue for each. The network delays further what would overtake.
+  /// apart, so that a model may keep a queue for each. The network delays further what would overtake.
   virtual std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) = 0;
+
+  /// A new line, before anything is sent on it.
+  virtual void open_line(std::uint32_t, const LineIdentity&) {}
+  /// `arrival_ns` for models in which senders may give up.
+  virtual Delivery deliver(std::uint32_t line, std::int64_t now_ns, std::size_t size) { return {arrival_ns(line, now_ns, size), false}; }
+  /// The same for a datagram, which may be lost, come twice and overtake others.
+  virtual DatagramArrivals datagram(std::uint32_t line, std::int64_t now_ns, std::size_t size) {
+    DatagramArrivals arrivals;
+    arrivals.add(arrival_ns(line, now_ns, size));
+    return arrivals;
+  }
+  /// What was sent on `line` and has not left the sender at `now_ns`.
+  virtual std::size_t queued_bytes(std::uint32_t, std::int64_t) const { return 0; }
 };
 
 /// Every byte takes the same time.
@@ -33,12 +75,15 @@ class ConstantDelay final : public LinkModel {
 
 class VirtualEndpoint;
 
+/// Longest payload of a datagram: what an Ethernet packet of 1500 bytes leaves after the headers of IPv4 and UDP.
+inline constexpr std::size_t virtual_datagram_max = 1472;
+
 /// The clock and the air between endpoints; must outlive them. A discrete-event queue ordered by (instant, order of sending). The clock stands still but in
 /// `advance_to`; whole nanoseconds, so that no sum of delays is ever rounded. One thread for all.
 class VirtualNetwork {
  public:
-  /// The clock starts at `now_ns`; `model` must outlive the network.
-  explicit VirtualNetwork(LinkModel& model, std::int64_t now_ns = 0) : model_(model), now_ns_(now_ns) {}
+  /// The clock starts at `now_ns`; `model` must outlive the network. `queue_max` [bytes]: what may wait at a sender whose line is slow before it is closed.
+  explicit VirtualNetwork(LinkModel& model, std::int64_t now_ns = 0, std::size_t queue_max = 64u << 20) : model_(model), now_ns_(now_ns), queue_max_(queue_max) {}
   VirtualNetwork(const VirtualNetwork&) = delete;
   VirtualNetwork& operator=(const VirtualNetwork&) = delete;
 
@@ -48,10 +93,14 @@ class VirtualNetwork {
   std::optional<std::int64_t> next_arrival_ns() const;
   /// Moves the clock to `until_ns`, not before now; what has arrived by then waits for its receiver's `poll`.
   void advance_to(std::int64_t until_ns);
+  /// From now on there is a way for datagrams beside the reliable lines.
+  void carry_datagrams() { carries_datagrams_ = true; }
+  /// How much has arrived since the beginning.
+  std::uint64_t arrival_count() const { return arrived_; }
 
  private:
   friend class VirtualEndpoint;
-  enum class Kind : std::uint8_t { request, open, bytes, close };
+  enum class Kind : std::uint8_t { request, open, bytes, datagram, close };
   /// Something on its way, or arrived and waiting.
   struct Parcel {
     Kind kind = Kind::bytes;
@@ -77,9 +126,12 @@ class VirtualNetwork {
 
   LinkModel& model_;
   std::int64_t now_ns_;
-  std::uint64_t sent_ = 0;
+  std::size_t queue_max_;
+  bool carries_datagrams_ = false;
+  std::uint64_t sent_ = 0, arrived_ = 0;
   std::uint32_t next_line_ = 0;
   std::map<std::string, VirtualEndpoint*> listeners_;
+  std::map<std::string, std::uint32_t> link_counts_;  ///< by listener, also of one that is not there
   std::vector<Parcel> parcels_;
   std::vector<std::uint32_t> free_;
   std::vector<Arrival> arrivals_;  ///< a heap, earliest first
@@ -104,6 +156,10 @@ class VirtualEndpoint final : public Transport {
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
   TransportCounters counters(ConnectionId connection) const override;
+  /// `virtual_datagram_max` once the connection has been reported open here, if the network carries datagrams; each then arrives once, twice or never, in any
+  /// order, as the model says. They share a limited rate with the reliable bytes and nothing else.
+  std::size_t datagram_max(ConnectionId connection) const override;
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
   /// Of all connections, closed ones included; nothing is queued.
   const TransportCounters& totals() const { return totals_; }
 
@@ -114,14 +170,20 @@ class VirtualEndpoint final : public Transport {
     ConnectionId peer_connection = 0;
     std::uint32_t number = 0;       ///< the model's
     bool is_open = false;           ///< may send, and hears
+    bool is_reported = false;       ///< `on_open` was called: datagrams may be sent, and those that came before are lost
+    bool is_given_up = false;       ///< nothing gets through: closed once the sender has noticed
     std::int64_t last_ns = 0;       ///< nothing sent from here arrives before this
     TransportCounters counters;
   };
-  ConnectionId add_line(VirtualEndpoint* peer);
+  ConnectionId add_line(VirtualEndpoint* peer, const LineIdentity& identity);
   /// A parcel that tells this end why `connection` is no more; not yet on its way.
   std::uint32_t closing(ConnectionId connection, CloseReason reason);
   void post(Line& line, std::uint32_t parcel, VirtualNetwork::Kind kind);
+  void give_up(Line& line, std::int64_t instant_ns);
+  void overflow(ConnectionId connection);
+  std::uint32_t packed(std::span<const Bytes> parts, std::size_t size);
   void report(std::uint32_t number, TransportListener& listener);
+  void report_datagram(Line& line, ConnectionId connection, TransportListener& listener);
 
   VirtualNetwork& network_;
   std::string name_;

@@ -49,7 +49,7 @@ TEST_P(Refused, EachReasonHasItsOwnText) {
   EXPECT_EQ(rig.execution().federate_count(), 2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
 
 /// Frames as a stranger would make them.
 template <class... Messages>

@@ -251,7 +251,7 @@ TEST_P(Conversation, ThousandsOfUpdatesTravelAsOneBlockOfNineBytesEach) {
   EXPECT_EQ(coast.ambassador.counters().updates_reflected, 8000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Over, Conversation, ::testing::Values(Carrier::in_process, Carrier::tcp), [](const auto& carrier) { return name_of(carrier.param); });
+INSTANTIATE_TEST_SUITE_P(Over, Conversation, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
 
 }  // namespace
 }  // namespace rink::rti::testing

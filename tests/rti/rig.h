@@ -14,6 +14,7 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
+#include "rti/transport/network_model.h"
 #include "rti/transport/tcp.h"
 
 namespace rink::rti::testing {
@@ -158,8 +159,8 @@ class Recorder : public FederateAmbassador {
   int out_of_scope_updates = 0;
 };
 
-enum class Carrier { in_process, tcp };
-inline std::string name_of(Carrier carrier) { return carrier == Carrier::tcp ? "tcp" : "in_process"; }
+enum class Carrier { in_process, tcp, virtual_network };
+inline std::string name_of(Carrier carrier) { return carrier == Carrier::tcp ? "tcp" : carrier == Carrier::virtual_network ? "virtual_network" : "in_process"; }
 
 /// A federate with its record.
 struct Station {
@@ -175,11 +176,12 @@ class Rig {
   explicit Rig(Carrier carrier, FederationSettings settings = {}, TcpSettings tcp_settings = {})
       : carrier_(carrier), execution_(harbour(), settings), host_(execution_), server_tcp_(tcp_settings), server_local_(network_), clients_local_(network_) {
     if (carrier == Carrier::tcp) port_ = server_tcp_.listen("127.0.0.1", 0);
+    else if (carrier == Carrier::virtual_network) server_virtual_.listen("rti");
     else server_local_.listen("rti");
     host_.add(server_transport());
   }
-  Transport& server_transport() { return carrier_ == Carrier::tcp ? static_cast<Transport&>(server_tcp_) : server_local_; }
-  Transport& client_transport() { return carrier_ == Carrier::tcp ? static_cast<Transport&>(clients_tcp_) : clients_local_; }
+  Transport& server_transport() { return chosen(server_tcp_, server_local_, server_virtual_); }
+  Transport& client_transport() { return chosen(clients_tcp_, clients_local_, clients_virtual_); }
   std::uint16_t port() const { return port_; }
   FederationExecution& execution() { return execution_; }
   FederationHost& host() { return host_; }
@@ -188,7 +190,9 @@ class Rig {
   /// A connected federate that has not asked to join.
   Station& connect(const Fom& fom = harbour()) {
     Station& station = stations_.emplace_back(fom);
-    const ConnectionId id = carrier_ == Carrier::tcp ? clients_tcp_.connect("127.0.0.1", port_) : clients_local_.connect("rti");
+    const ConnectionId id = carrier_ == Carrier::tcp               ? clients_tcp_.connect("127.0.0.1", port_)
+                            : carrier_ == Carrier::virtual_network ? clients_virtual_.connect("rti")
+                                                                   : clients_local_.connect("rti");
     station.link = std::make_unique<FederateLink>(station.ambassador, client_transport(), id);
     links_.add(*station.link);
     return station;
@@ -203,11 +207,13 @@ class Rig {
   void round() {
     const auto wait = carrier_ == Carrier::tcp ? std::chrono::microseconds(300) : std::chrono::microseconds(0);
     links_.flush(now);
+    let_arrive();
     client_transport().poll(std::chrono::nanoseconds(0), links_);
     host_.poll(wait);
     host_.advance_clock(now);
     host_.match();
     host_.flush();
+    let_arrive();
     client_transport().poll(wait, links_);
   }
   void settle(int quiet_rounds = 3) {
@@ -224,12 +230,18 @@ class Rig {
     for (const Station& station : stations_) sum += station.ambassador.counters().bytes_received + station.ambassador.counters().bytes_sent;
     return sum;
   }
+  Transport& chosen(Transport& tcp, Transport& local, Transport& modelled) { return carrier_ == Carrier::tcp ? tcp : carrier_ == Carrier::virtual_network ? modelled : local; }
+  /// Whatever the perfect virtual network carries is there at the instant of sending.
+  void let_arrive() { virtual_.advance_to(virtual_.now_ns()); }
   Carrier carrier_;
   FederationExecution execution_;
   FederationHost host_;
   InProcessNetwork network_;
   TcpTransport server_tcp_, clients_tcp_;
   InProcessEndpoint server_local_, clients_local_;
+  NetworkModel perfect_{NetworkConditions{}};
+  VirtualNetwork virtual_{perfect_};
+  VirtualEndpoint server_virtual_{virtual_}, clients_virtual_{virtual_};
   std::uint16_t port_ = 0;
   FederateLinks links_;
   std::deque<Station> stations_;
