@@ -14,6 +14,8 @@ class Outlet {
   virtual ~Outlet() = default;
   /// Everything for one destination, at most once per flush. The parts are valid during the call.
   virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
+  /// Bytes that its sends have left to wait because it doesn't take them.
+  virtual std::size_t waiting_bytes(ConnectionId) const { return 0; }
   /// Close it once the bytes sent before are on their way; the central component has forgotten it already.
   virtual void drop(ConnectionId connection, std::string_view why) = 0;
 };

@@ -50,6 +50,7 @@ struct FederationCounters {
   std::uint64_t scope_bytes_sent = 0, entry_bytes_sent = 0, update_bytes_sent = 0, interaction_bytes_sent = 0;
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_received = 0, updates_sent = 0;  ///< records; one sent to n federates counts n times
+  std::uint64_t updates_held_back = 0;  ///< records that a federate which doesn't read was not sent; its newest state follows when it does
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
   std::uint64_t joins = 0, resigns = 0;

@@ -1,5 +1,6 @@
 // What goes out: one gathered write per destination, shared blocks without a copy.
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "rti/federation_parts.h"
@@ -71,10 +72,11 @@ void for_each_record(const UpdateRun& run, const FederateInterest& interest, Vis
 
 void FederationExecution::Parts::flush(Outlet& outlet) {
   send_answers(outlet);
-  runs_.seal();
+  runs_ = buffering_->seal();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     if (federates_[slot].is_joined) flush_federate(slot, outlet);
-  runs_.clear();
+  runs_ = {};
+  buffering_->clear();
   objects_.recycle();
   for (const Farewell& each : farewells_) {
     const Bytes bytes = each.bytes;
@@ -92,14 +94,21 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   pieces_.clear();
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   write_scope_events(slot);
-  write_fresh_states(slot);
-  gather_runs(slot);
+  const bool is_held = holds_back(slot, outlet);
+  if (is_held) {
+    hold_back(slot);
+  } else {
+    write_fresh_states(slot);
+    gather_runs(slot);
+  }
   scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
   federate.control.clear();
   federate.tail.clear();
   FederateInterest& interest = interest_.of(slot);
-  if (interest.has_fresh) interest.fresh.clear();
-  interest.has_fresh = false;
+  if (interest.has_fresh && !is_held) {
+    interest.fresh.clear();
+    interest.has_fresh = false;
+  }
   interest.events.clear();
   if (pieces_.empty() && scratch_.size() == frame_header_size) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
@@ -155,11 +164,29 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
   counters_.entry_bytes_sent += scratch_.size() - before;
 }
 
+bool FederationExecution::Parts::holds_back(std::uint32_t slot, const Outlet& outlet) {
+  if (runs_.empty() && !interest_.of(slot).has_fresh) return false;
+  return buffering_->holds_back(slot, outlet.waiting_bytes(federates_[slot].connection));
+}
+
+/// What it would have heard of becomes due whole, as if it had come into scope: the newest state, once, however many updates there were.
+void FederationExecution::Parts::hold_back(std::uint32_t slot) {
+  FederateInterest& interest = interest_.of(slot);
+  for (const UpdateRun& run : runs_) {
+    if (run.owner == slot || (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty())) continue;
+    for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
+      const std::uint64_t heard = run.members.word(i) & interest.in_scope.word(i);
+      interest.fresh.insert_word(i, heard);
+      interest.has_fresh |= heard != 0;
+      counters_.updates_held_back += static_cast<std::uint64_t>(std::popcount(heard));
+    }
+  }
+}
+
 void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   const FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    const UpdateRun& run = runs_[i];
+  for (const UpdateRun& run : runs_) {
     if (run.owner == slot) continue;
     if (!interest.is_uniform) {
       gather_cut_run(run, interest);

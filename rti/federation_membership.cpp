@@ -1,6 +1,7 @@
 // Who is connected, who has joined, who waits for whom.
 #include <algorithm>
 
+#include "rti/buffering/newest_state.h"
 #include "rti/distribution/interest.h"
 #include "rti/federation_parts.h"
 
@@ -14,6 +15,11 @@ std::unique_ptr<DataDistribution> distribution_of(const FederationServices& serv
   return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
 }
 
+std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
+  if (services.buffering) return services.buffering();
+  return std::make_unique<NewestState>();
+}
+
 }  // namespace
 
 FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter)
@@ -23,6 +29,7 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       ownership_(fom, objects_),
       distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
       interest_(*distribution_),
+      buffering_(buffering_of(services)),
       interaction_subscribers_(fom.interaction_classes().size()) {}
 
 void FederationExecution::Parts::connect(ConnectionId connection) {
@@ -123,6 +130,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   Federate& federate = federates_[slot];
   objects_.for_each_in_block(federate.block, [this](ObjectSlot object) { delete_object(object); });
   interest_.remove_federate(slot);
+  buffering_->remove_federate(slot);
   if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);  // else its handles have been seen
   names_.erase(federate.name);
   federate.is_joined = federate.is_watching = false;

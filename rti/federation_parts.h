@@ -13,7 +13,7 @@
 #include "rti/wire/message.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
-#include "rti/buffering/update_runs.h"
+#include "rti/buffering/buffering.h"
 
 namespace rink::rti {
 
@@ -126,6 +126,8 @@ class FederationExecution::Parts {
   void flush_federate(std::uint32_t slot, Outlet& outlet);
   void write_scope_events(std::uint32_t slot);
   void write_fresh_states(std::uint32_t slot);
+  bool holds_back(std::uint32_t slot, const Outlet& outlet);
+  void hold_back(std::uint32_t slot);
   void gather_runs(std::uint32_t slot);
   void gather_run(const UpdateRun& run, const FederateInterest& interest);
   void gather_cut_run(const UpdateRun& run, const FederateInterest& interest);
@@ -143,7 +145,8 @@ class FederationExecution::Parts {
   Ownership ownership_;
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
-  UpdateRuns runs_;
+  std::unique_ptr<Buffering> buffering_;
+  std::span<const UpdateRun> runs_;  ///< of the flush at hand
   std::vector<Connection> connections_;  ///< by id
   std::vector<Federate> federates_;      ///< by slot
   std::vector<std::uint32_t> free_federates_, free_blocks_;

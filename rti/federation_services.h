@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "im/filter.h"
+#include "rti/buffering/buffering.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/ownership/ownership.h"
 
@@ -14,6 +15,9 @@ namespace rink::rti {
 struct FederationServices {
   /// Who hears of what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)> data_distribution;
+
+  /// How updates are collected, and who is told the newest state instead (rti/buffering/newest_state.h).
+  std::function<std::unique_ptr<Buffering>()> buffering;
 };
 
 }  // namespace rink::rti

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rti/objects/bitmap.h"
@@ -38,8 +39,7 @@ class UpdateRuns {
   /// Completes the messages; no `append` may follow before `clear`.
   void seal();
   void clear();
-  std::size_t size() const { return size_; }
-  const UpdateRun& operator[](std::size_t index) const { return runs_[index]; }
+  std::span<const UpdateRun> runs() const { return {runs_.data(), size_}; }
 
  private:
   UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp);

@@ -16,6 +16,12 @@ class Bitmap {
     if (word >= words_.size()) words_.resize(word + 1);
     words_[word] |= std::uint64_t{1} << number % 64;
   }
+  /// The members of `word`, 64 numbers at once from 64 * `index` on.
+  void insert_word(std::size_t index, std::uint64_t word) {
+    if (word == 0) return;
+    if (index >= words_.size()) words_.resize(index + 1);
+    words_[index] |= word;
+  }
   void erase(std::uint32_t number) {
     if (number / 64 < words_.size()) words_[number / 64] &= ~(std::uint64_t{1} << number % 64);
   }

@@ -52,6 +52,10 @@ class FederationHost::HostOutlet final : public Outlet {
     const Route& route = host_.routes_[connection];
     if (route.port != nullptr) route.port->transport().send(route.connection, parts);
   }
+  std::size_t waiting_bytes(ConnectionId connection) const override {
+    const Route& route = host_.routes_[connection];
+    return route.port != nullptr ? route.port->transport().queued_bytes(route.connection) : 0;
+  }
   void drop(ConnectionId connection, std::string_view) override {
     const Route& route = host_.routes_[connection];
     if (route.port != nullptr) route.port->transport().close(route.connection);

@@ -79,11 +79,15 @@ void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseRea
   line.incoming.clear();  // what the peer said before is of no interest to one who closes
 }
 
+std::size_t InProcessEndpoint::queued_bytes(ConnectionId connection) const {
+  if (connection >= lines_.size() || lines_[connection].peer == nullptr) return 0;
+  return lines_[connection].peer->lines_[lines_[connection].peer_connection].incoming.size();
+}
+
 TransportCounters InProcessEndpoint::counters(ConnectionId connection) const {
   if (connection >= lines_.size()) return {};
   TransportCounters counters = lines_[connection].counters;
-  const Line& line = lines_[connection];
-  if (line.peer != nullptr) counters.queued_bytes = line.peer->lines_[line.peer_connection].incoming.size();
+  counters.queued_bytes = queued_bytes(connection);
   return counters;
 }
 

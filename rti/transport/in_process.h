@@ -40,6 +40,7 @@ class InProcessEndpoint final : public Transport {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
 
  private:

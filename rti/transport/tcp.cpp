@@ -239,6 +239,7 @@ TransportCounters TcpTransport::Core::totals() const {
   return sum;
 }
 
+std::size_t TcpTransport::queued_bytes(ConnectionId connection) const { return core_->queued_bytes(connection); }
 TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
 TransportCounters TcpTransport::totals() const { return core_->totals(); }
 

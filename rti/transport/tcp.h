@@ -35,6 +35,7 @@ class TcpTransport final : public Transport {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
   /// Sum over all connections that ever were; where the kernel was not asked or could not tell, our own count stands in for its.
   TransportCounters totals() const;

@@ -25,6 +25,7 @@ class TcpTransport::Core {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
   void send(ConnectionId connection, std::span<const Bytes> parts);
   void close(ConnectionId connection);
+  std::size_t queued_bytes(ConnectionId connection) const;
   TransportCounters counters(ConnectionId connection) const;
   TransportCounters totals() const;
 

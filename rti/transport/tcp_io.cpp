@@ -112,6 +112,11 @@ void TcpTransport::Core::drain(Peer& peer) {
   readiness_.change(peer.file.number(), peer.id, true, false);
 }
 
+std::size_t TcpTransport::Core::queued_bytes(ConnectionId connection) const {
+  const Peer* peer = find(connection);
+  return peer == nullptr ? 0 : peer->queue.size() - peer->queue_from;
+}
+
 void TcpTransport::Core::close(ConnectionId connection) {
   Peer* peer = find(connection);
   if (peer == nullptr || peer->is_leaving) return;

@@ -78,6 +78,10 @@ class Transport {
   /// Sends what is queued if the peer takes it at once, then closes; `on_close` follows in the next `poll`.
   virtual void close(ConnectionId connection) = 0;
 
+  /// What `counters` says as `queued_bytes`, without asking the kernel: asked of each destination before each send. 0 from a transport that doesn't know, whose
+  /// readers then get all updates however late.
+  virtual std::size_t queued_bytes(ConnectionId) const { return 0; }
+
   /// Counters of an open connection, or the last ones of a closed one; all zero for one that never was.
   virtual TransportCounters counters(ConnectionId connection) const = 0;
 
