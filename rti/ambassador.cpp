@@ -14,6 +14,7 @@ Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Pati
       queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
       callbacks_(queue_ ? *queue_ : callbacks),
       patience_(patience),
+      regions_(fom),
       outgoing_(frame_max_to_rti) {}
 
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
@@ -25,7 +26,9 @@ void Ambassador::unpublish_object_class(ObjectClassHandle object_class) { publis
 
 void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
   assert(fom_.attributes(object_class).includes(attributes));
-  say(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits, region.value});
+  const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
+  if (region) regions_.replace_subscription(object_class, attributes, region);
+  say(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits, number});
 }
 
 void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
@@ -58,6 +61,7 @@ void Ambassador::delete_object_instance(ObjectHandle object) {
   KnownObject* known = find(object);
   assert(known != nullptr && known->is_own);
   *known = {};
+  regions_.forget(object);
   say(DeleteObjectMessage{object.value});
 }
 
@@ -109,55 +113,6 @@ void Ambassador::send_directed_interaction(InteractionClassHandle interaction_cl
   ++counters_.interactions_sent;
 }
 
-RegionHandle Ambassador::create_region() {
-  std::uint32_t region = static_cast<std::uint32_t>(regions_.size());
-  if (free_regions_.empty()) {
-    if (region == region_max) return {};
-    regions_.emplace_back();
-  } else {
-    region = free_regions_.back();
-    free_regions_.pop_back();
-  }
-  say(CreateRegionMessage{region});
-  return {region};
-}
-
-void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
-  assert(region.value < regions_.size());
-  regions_[region.value] = bounds;
-}
-
-void Ambassador::commit_region_modifications(RegionHandle region) {
-  const RegionBounds one{region, regions_[region.value]};
-  commit_region_modifications(std::span(&one, 1));
-}
-
-void Ambassador::commit_region_modifications(std::span<const RegionBounds> regions) {
-  while (!regions.empty()) {
-    const auto chunk = regions.first(std::min(regions.size(), ModifyRegionsMessage::count_max));
-    regions = regions.subspan(chunk.size());
-    region_records_.clear();
-    Writer writer(region_records_);
-    for (RegionBounds each : chunk) {
-      assert(each.region.value < regions_.size() && each.bounds.low_x <= each.bounds.high_x && each.bounds.low_y <= each.bounds.high_y);
-      regions_[each.region.value] = each.bounds;
-      exchange(writer, each);
-    }
-    say(ModifyRegionsMessage{static_cast<std::uint16_t>(chunk.size()), region_records_});
-  }
-}
-
-void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
-  assert(find(object) != nullptr && find(object)->is_own);
-  say(AssociateRegionMessage{object.value, region.value});
-}
-
-void Ambassador::delete_region(RegionHandle region) {
-  assert(region.value < regions_.size());
-  free_regions_.push_back(region.value);
-  say(DeleteRegionMessage{region.value});
-}
-
 void Ambassador::clear_outgoing() {
   if (!outgoing_.bytes().empty()) has_said_ = true;
   counters_.bytes_sent += outgoing_.bytes().size();
@@ -189,7 +144,7 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.capacity() * sizeof regions_[0] + free_regions_.capacity() * sizeof free_regions_[0] +
+  return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes();
 }
 

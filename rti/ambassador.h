@@ -13,6 +13,7 @@
 #include "im/filter.h"
 #include "rti/callbacks/callback_queue.h"
 #include "rti/federate_ambassador.h"
+#include "rti/distribution/region_book.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
@@ -85,17 +86,38 @@ class Ambassador {
   /// The same to one federate only, if it subscribes.
   void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp);
 
-  /// Data distribution management. Bounds must be finite with low <= high. A region without bounds overlaps nothing. `set_region` is local;
-  /// changes take effect at the RTI's next match after the commit. The same region may serve subscriptions and updates.
+  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". What is set is local; a commit takes effect at the RTI's next match. The same region may serve
+  /// subscriptions and updates; one that was never committed overlaps nothing. Without dimensions a region is over X and Y [m], needs no such dimensions in the model, and holds for
+  /// whole objects; the services with `pairs` are the standard's: each attribute must have all dimensions of its regions. Empty if all `region_max` regions are in use.
   RegionHandle create_region();
+  RegionHandle create_region(DimensionSet dimensions);
   void set_region(RegionHandle region, const im::Region& bounds);
+  void set_range_bounds(RegionHandle region, DimensionHandle dimension, const Range& range);
+  Range get_range_bounds(RegionHandle region, DimensionHandle dimension) const;
+  DimensionSet get_dimension_handle_set(RegionHandle region) const;
   void commit_region_modifications(RegionHandle region);
-  /// Sets and commits many at once.
+  void commit_region_modifications(std::span<const RegionHandle> regions);
+  /// Sets and commits many at once; the caller vouches for handles and bounds.
   void commit_region_modifications(std::span<const RegionBounds> regions);
-  /// Replaces the object's former region; an empty handle gives it back to the default region.
-  void associate_regions_for_updates(ObjectHandle object, RegionHandle region);
-  /// Its subscriptions end; objects that use it return to the default region.
+  /// Throws RegionInUseForUpdateOrSubscription if an own object or a subscription uses it.
   void delete_region(RegionHandle region);
+  /// Replaces all regions of the object; an empty handle gives it back to the default region.
+  void associate_regions_for_updates(ObjectHandle object, RegionHandle region);
+  void associate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
+  void unassociate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
+  ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, std::string_view name = {});
+  /// Adds to what is subscribed to already.
+  void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
+  void unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
+  void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
+  void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
+  /// To all who subscribe to the class without a region, or with one that overlaps one of these.
+  void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp);
+  DimensionHandle get_dimension_handle(std::string_view name) const;
+  const std::string& get_dimension_name(DimensionHandle dimension) const;
+  std::optional<std::uint32_t> get_dimension_upper_bound(DimensionHandle dimension) const;
+  DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class, AttributeHandle attribute) const;
+  DimensionSet get_available_dimensions_for_interaction_class(InteractionClassHandle interaction_class) const;
 
   /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
   /// wait. In the immediate model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its connection. Throw CallNotAllowedFromWithinCallback.
@@ -150,6 +172,16 @@ class Ambassador {
   bool take_stamp(Reader& reader);
   bool take_updates(Reader& reader);
   bool take_interaction(Reader& reader);
+  void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added);
+  void subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_added);
+  void subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_added);
+  void write_numbers(std::span<const RegionHandle> regions);
+  template <class Tell>
+  void for_each_message(std::span<const AttributeRegions> pairs, Tell tell);
+  ObjectClassHandle own_class(ObjectHandle object);
+  void check(DimensionHandle dimension) const;
+  void check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const;
+  void check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const;
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
@@ -167,8 +199,8 @@ class Ambassador {
   std::uint32_t object_block_ = 0, objects_registered_ = 0;
   std::vector<KnownObject> own_;    ///< registered here, by number within our block
   ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
-  std::vector<im::Region> regions_;  ///< by handle
-  std::vector<std::uint32_t> free_regions_;
+  RegionBook regions_;
+  std::vector<Range> ranges_;
   std::vector<std::byte> region_records_;
   std::vector<std::string> announced_points_;  ///< synchronisation points that we have not achieved yet
   std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told

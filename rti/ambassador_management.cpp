@@ -47,6 +47,7 @@ void Ambassador::join(std::string_view federation, std::string_view federate_nam
   require_text(federate_name, text_max, "the federate's name");
   require_text(federate_type, text_max, "the federate's type");
   phase_ = Phase::joining;
+  regions_.sign(federate_name);
   JoinMessage message;
   message.fom_hash = fom_.hash();
   message.federation = federation;

@@ -52,6 +52,13 @@ class ObjectMap {
     --size_;
   }
 
+  /// Calls `visit(ObjectHandle, const Value&)` for each, in no particular order.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const Slot& slot : slots_)
+      if (slot.key != nobody) visit(ObjectHandle{slot.key}, slot.value);
+  }
+
   std::size_t memory_bytes() const { return slots_.capacity() * sizeof(Slot); }
 
  private:
