@@ -70,9 +70,7 @@ Outcome FederationExecution::Parts::modify_regions(std::uint32_t slot, Reader& r
   ModifyRegionsMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   return for_each_record<RegionBounds>(message.records, message.count, [&](const RegionBounds& record) -> Outcome {
-    if (!interest_.has_region(slot, record.region) || !interest_.is_planar(slot, record.region)) return Violation::unknown_name;
-    interest_.modify_region(slot, record.region, record.bounds);
-    return std::nullopt;
+    return interest_.modify_region(slot, record.region, record.bounds) ? Outcome() : Violation::unknown_name;
   });
 }
 

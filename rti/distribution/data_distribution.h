@@ -88,9 +88,8 @@ class DataDistribution {
   /// False if the handle is in use or leaves a gap. Without dimensions: over the plane.
   virtual bool create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) = 0;
   virtual DimensionSet dimensions(std::uint32_t federate, RegionHandle region) const = 0;
-  /// Of a region over the plane alone.
-  virtual bool is_planar(std::uint32_t federate, RegionHandle region) const = 0;
-  virtual void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) = 0;
+  /// False if there is no such region, or it is not over the plane alone. The one call for a moved region of the plane: a crowd makes thousands a tick.
+  virtual bool modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) = 0;
   /// One range for each of its dimensions in ascending order.
   virtual void modify_region(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges) = 0;
   /// Its subscriptions end; what used it is of the default region again, unless it has other regions.

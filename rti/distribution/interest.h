@@ -74,8 +74,7 @@ class Interest final : public DataDistribution {
   bool has_region(std::uint32_t federate, RegionHandle region) const override;
   bool create_region(std::uint32_t federate, RegionHandle region, DimensionSet dimensions) override;
   DimensionSet dimensions(std::uint32_t federate, RegionHandle region) const override { return regions_[slot_of(federate, region)].dimensions; }
-  bool is_planar(std::uint32_t federate, RegionHandle region) const override { return regions_[slot_of(federate, region)].is_planar; }
-  void modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) override;
+  bool modify_region(std::uint32_t federate, RegionHandle region, const im::Region& bounds) override;
   void modify_region(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges) override;
   void delete_region(std::uint32_t federate, RegionHandle region) override;
 

@@ -35,16 +35,18 @@ bool Interest::create_region(std::uint32_t federate, RegionHandle region, Dimens
   return true;
 }
 
-void Interest::modify_region(std::uint32_t federate, RegionHandle handle, const im::Region& bounds) {
+bool Interest::modify_region(std::uint32_t federate, RegionHandle handle, const im::Region& bounds) {
+  if (!has_region(federate, handle)) return false;
   const RegionSlot slot = slot_of(federate, handle);
   DistributedRegion& region = regions_[slot];
-  assert(region.is_planar);
-  if (region.is_committed && region.plane == bounds) return;
+  if (!region.is_planar) return false;
+  if (region.is_committed && region.plane == bounds) return true;
   region.is_committed = true;
   region.plane = bounds;
   ++counters_.regions_changed;
   tell_filter(region, slot);
   if (!unplaced_.empty() || unplaced_subscription_count_ > 0) mark_changed(slot);
+  return true;
 }
 
 void Interest::modify_region(std::uint32_t federate, RegionHandle handle, std::span<const Range> ranges) {
@@ -56,7 +58,10 @@ void Interest::modify_region(std::uint32_t federate, RegionHandle handle, std::s
     const Range x = ranges[region.dimensions.rank(x_)], y = ranges[region.dimensions.rank(y_)];
     plane = {x.low, y.low, x.high, y.high};
   }
-  if (region.is_planar) return modify_region(federate, handle, plane);
+  if (region.is_planar) {
+    modify_region(federate, handle, plane);
+    return;
+  }
   if (region.is_committed && std::ranges::equal(region.ranges, ranges)) return;
   region.is_committed = true;
   region.plane = plane;

@@ -1,0 +1,368 @@
+// Random federations of regions over one to four dimensions, against the standard's definition of overlap applied to every pair.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "rti/wire/region_messages.h"
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+/// An airspace: `Aircraft` over all four dimensions, of which `Channel` has an upper bound; `weight` has none.
+constexpr const char* airspace_xml = R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name>
+<objectClass><name>Aircraft</name>
+  <attribute><name>position</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
+  <attribute><name>radio</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
+  <attribute><name>weight</name><dataType>HLAfloat64LE</dataType></attribute>
+</objectClass></objectClass></objects>
+<interactions><interactionClass><name>HLAinteractionRoot</name><interactionClass><name>Call</name>
+  <dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions>
+  <parameter><name>words</name><dataType>HLAoctet</dataType></parameter></interactionClass></interactionClass></interactions>
+<dimensions><dimension><name>Altitude</name></dimension><dimension><name>X</name></dimension><dimension><name>Channel</name><upperBound>6</upperBound></dimension><dimension><name>Y</name></dimension></dimensions>
+</objectModel>)";
+
+const Fom& airspace() {
+  static const Fom fom = Fom::parse(airspace_xml, "airspace.xml");
+  return fom;
+}
+const ObjectClassHandle aircraft = *airspace().object_class("Aircraft");
+const AttributeHandle where = *airspace().attribute(aircraft, "position"), radio = *airspace().attribute(aircraft, "radio"), weight = *airspace().attribute(aircraft, "weight");
+const InteractionClassHandle call = *airspace().interaction_class("Call");
+const DimensionHandle x = *airspace().dimension("X"), y = *airspace().dimension("Y"), altitude = *airspace().dimension("Altitude"), channel = *airspace().dimension("Channel");
+
+/// What a region is to the test: dimensions, and ranges as they were handed in and last committed.
+struct Area {
+  RegionHandle handle;
+  DimensionSet dimensions;
+  std::map<std::uint32_t, Range> set, committed;
+};
+
+/// IEEE 1516.1-2010, 9.1: two regions overlap if they have a dimension in common, and their ranges overlap in each such. [low, high) of whole numbers for the channel.
+bool overlap(const Area& a, const Area& b) {
+  const DimensionSet common = a.dimensions & b.dimensions;
+  if (common.is_empty() || a.committed.empty() || b.committed.empty()) return false;
+  bool all = true;
+  common.for_each([&](DimensionHandle each) {
+    const Range &p = a.committed.at(each.value), &q = b.committed.at(each.value);
+    all = all && (each == channel ? p.low < q.high && q.low < p.high : p.low <= q.high && q.low <= p.high);
+  });
+  return all;
+}
+
+/// Federates without transports: services in, callbacks out.
+struct Pilot {
+  Recorder heard;
+  Ambassador ambassador{airspace(), heard};
+  std::deque<Area> areas;
+  std::map<std::uint32_t, std::map<std::uint32_t, AttributeSet>> updates;  ///< by object: attributes by the index of their area
+  std::vector<ObjectHandle> objects;
+  std::map<std::uint32_t, AttributeSet> subscriptions;                     ///< by the index of the area
+  std::vector<std::uint32_t> calls;                                        ///< areas in which it listens
+  AttributeSet everywhere;
+};
+
+struct Post final : Outlet {
+  std::deque<Pilot>* pilots = nullptr;
+  int drops = 0;
+  void send(ConnectionId id, std::span<const Bytes> parts) override {
+    std::vector<std::byte> all;
+    for (const Bytes part : parts) all.insert(all.end(), part.begin(), part.end());
+    EXPECT_TRUE((*pilots)[id].ambassador.receive(all));
+  }
+  void drop(ConnectionId, std::string_view) override { ++drops; }
+};
+
+class Airspace {
+ public:
+  Airspace(unsigned seed, int pilots, const FederationServices& services = {}) : random_(seed), execution_(airspace(), settings(), services) {
+    post_.pilots = &pilots_;
+    for (int i = 0; i < pilots; ++i) {
+      Pilot& pilot = pilots_.emplace_back();
+      execution_.connect(static_cast<ConnectionId>(i));
+      pilot.ambassador.join("rink", "pilot " + std::to_string(i), "test");
+    }
+    tick();
+    for (Pilot& pilot : pilots_) {
+      pilot.ambassador.publish_object_class_attributes(aircraft, airspace().attributes(aircraft));
+      pilot.ambassador.publish_interaction_class(call);
+    }
+  }
+  static FederationSettings settings() {
+    FederationSettings settings;
+    settings.filter = "region";
+    settings.filter_settings.world = {0.0, 0.0, 10.0, 10.0};
+    return settings;
+  }
+  void tick() {
+    for (ConnectionId id = 0; id < pilots_.size(); ++id) {
+      execution_.receive(id, pilots_[id].ambassador.outgoing());
+      pilots_[id].ambassador.clear_outgoing();
+    }
+    execution_.match();
+    execution_.flush(post_);
+    EXPECT_EQ(post_.drops, 0);
+  }
+  int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+  bool by_chance(int in_ten) { return below(10) < in_ten; }
+
+  std::uint32_t add_area(Pilot& pilot) {
+    Area area;
+    const std::uint64_t bits = 1 + random_() % 15;
+    area.dimensions = DimensionSet(by_chance(4) ? DimensionSet{x, y}.bits : bits);
+    area.handle = pilot.ambassador.create_region(area.dimensions);
+    pilot.areas.push_back(area);
+    if (by_chance(9)) move(pilot, pilot.areas.back());
+    return static_cast<std::uint32_t>(pilot.areas.size() - 1);
+  }
+  /// Small whole numbers, so that ranges often touch.
+  void move(Pilot& pilot, Area& area) {
+    area.dimensions.for_each([&](DimensionHandle each) {
+      if (area.set.contains(each.value) && by_chance(4)) return;
+      Range range{static_cast<double>(below(5)), 0.0};
+      const int size = below(3);
+      range.high = range.low + size;
+      if (each == channel) range.high = std::min(6.0, range.high + 1.0);
+      area.set[each.value] = range;
+      pilot.ambassador.set_range_bounds(area.handle, each, range);
+    });
+    area.committed = area.set;
+    pilot.ambassador.commit_region_modifications(area.handle);
+  }
+  AttributeSet some_attributes() {
+    const AttributeSet set(static_cast<std::uint32_t>(1 + below(3)));
+    return set;  // position, radio or both
+  }
+  void change_subscription(Pilot& pilot) {
+    const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const AttributeSet set = some_attributes();
+    const AttributeRegions pair{set, {pilot.areas[area].handle}};
+    AttributeSet& now = pilot.subscriptions[area];
+    if (by_chance(6)) {
+      pilot.ambassador.subscribe_object_class_attributes_with_regions(aircraft, std::span(&pair, 1));
+      now = now | set;
+    } else {
+      pilot.ambassador.unsubscribe_object_class_attributes_with_regions(aircraft, std::span(&pair, 1));
+      now = now.without(set);
+    }
+  }
+  void change_listening(Pilot& pilot) {
+    const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const auto found = std::ranges::find(pilot.calls, area);
+    if (found == pilot.calls.end()) {
+      pilot.ambassador.subscribe_interaction_class_with_regions(call, std::span(&pilot.areas[area].handle, 1));
+      pilot.calls.push_back(area);
+    } else {
+      pilot.ambassador.unsubscribe_interaction_class_with_regions(call, std::span(&pilot.areas[area].handle, 1));
+      pilot.calls.erase(found);
+    }
+  }
+  void change_objects(Pilot& pilot) {
+    if (pilot.objects.empty() || by_chance(4)) {
+      const std::uint32_t area = add_area(pilot);
+      const AttributeSet set = some_attributes();
+      const AttributeRegions pair{set, {pilot.areas[area].handle}};
+      const ObjectHandle object = pilot.ambassador.register_object_instance_with_regions(aircraft, std::span(&pair, 1));
+      pilot.objects.push_back(object);
+      pilot.updates[object.value][area] = set;
+      return;
+    }
+    const std::size_t at = static_cast<std::size_t>(below(static_cast<int>(pilot.objects.size())));
+    const ObjectHandle object = pilot.objects[at];
+    if (by_chance(2)) {
+      pilot.ambassador.delete_object_instance(object);
+      pilot.updates.erase(object.value);
+      pilot.objects.erase(pilot.objects.begin() + static_cast<std::ptrdiff_t>(at));
+      return;
+    }
+    const std::uint32_t area = static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
+    const AttributeSet set = some_attributes();
+    const AttributeRegions pair{set, {pilot.areas[area].handle}};
+    AttributeSet& now = pilot.updates[object.value][area];
+    if (by_chance(6)) {
+      pilot.ambassador.associate_regions_for_updates(object, std::span(&pair, 1));
+      now = now | set;
+    } else {
+      pilot.ambassador.unassociate_regions_for_updates(object, std::span(&pair, 1));
+      now = now.without(set);
+    }
+  }
+  void change(Pilot& pilot) {
+    for (Area& area : pilot.areas)
+      if (by_chance(4)) move(pilot, area);
+    if (by_chance(5)) change_subscription(pilot);
+    if (by_chance(4)) change_listening(pilot);
+    if (by_chance(5)) change_objects(pilot);
+    if (by_chance(1)) {
+      pilot.everywhere = by_chance(5) ? AttributeSet{weight} : AttributeSet{};
+      pilot.ambassador.subscribe_object_class_attributes(aircraft, pilot.everywhere);
+    }
+  }
+
+  /// The standard's answer: which attributes of `object` are in scope for `pilot`.
+  static AttributeSet due(const Pilot& owner, ObjectHandle object, const Pilot& pilot) {
+    AttributeSet set = pilot.everywhere;
+    for (const AttributeHandle attribute : {where, radio, weight}) {
+      bool has_region = false, is_inside = false;
+      for (const auto& [area, attributes] : owner.updates.at(object.value)) {
+        if (!attributes.contains(attribute)) continue;
+        has_region = true;
+        for (const auto& [wanted, subscribed] : pilot.subscriptions) is_inside |= subscribed.contains(attribute) && overlap(owner.areas[area], pilot.areas[wanted]);
+      }
+      if (!has_region)
+        for (const auto& [wanted, subscribed] : pilot.subscriptions) is_inside |= subscribed.contains(attribute);
+      if (is_inside) set.insert(attribute);
+    }
+    return set;
+  }
+  void expect_scope_is_due() {
+    for (const Pilot& owner : pilots_)
+      for (const ObjectHandle object : owner.objects)
+        for (const Pilot& pilot : pilots_) {
+          if (&pilot == &owner) continue;
+          const auto known = pilot.heard.objects.find(object.value);
+          const bool is_in_scope = known != pilot.heard.objects.end() && known->second.is_in_scope;
+          ASSERT_EQ(is_in_scope, !due(owner, object, pilot).is_empty()) << "object " << object.value;
+        }
+  }
+  /// Each owner says all of each object; each pilot must hear exactly the attributes that are due.
+  void expect_updates_are_due(float value) {
+    for (Pilot& owner : pilots_)
+      for (const ObjectHandle object : owner.objects) owner.ambassador.update_attribute_values(object, AttributeSet{where, radio, weight}, values_of(double{value}, double{value}, double{value}), {});
+    for (Pilot& pilot : pilots_)
+      for (auto& [object, known] : pilot.heard.objects) known.values.clear();
+    tick();
+    for (const Pilot& owner : pilots_)
+      for (const ObjectHandle object : owner.objects)
+        for (const Pilot& pilot : pilots_) {
+          if (&pilot == &owner) continue;
+          AttributeSet heard;
+          const auto known = pilot.heard.objects.find(object.value);
+          if (known != pilot.heard.objects.end())
+            for (const auto& [attribute, bytes] : known->second.values) heard.insert({attribute});
+          ASSERT_EQ(heard.bits, due(owner, object, pilot).bits) << "object " << object.value;
+        }
+  }
+  void expect_calls_are_due() {
+    for (Pilot& sender : pilots_) {
+      if (sender.areas.empty()) continue;
+      std::vector<std::uint32_t> areas{static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size())))};
+      if (by_chance(5)) areas.push_back(static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size()))));
+      std::vector<RegionHandle> regions;
+      for (const std::uint32_t area : areas) regions.push_back(sender.areas[area].handle);
+      for (Pilot& pilot : pilots_) pilot.heard.interactions.clear();
+      sender.ambassador.send_interaction_with_regions(call, values_of(std::uint8_t{1}), regions, {});
+      tick();
+      for (const Pilot& pilot : pilots_) {
+        bool is_due = false;
+        for (const std::uint32_t area : areas)
+          for (const std::uint32_t listened : pilot.calls) is_due |= overlap(sender.areas[area], pilot.areas[listened]);
+        ASSERT_EQ(!pilot.heard.interactions.empty(), is_due && &pilot != &sender);
+      }
+    }
+  }
+  void step() {
+    for (Pilot& pilot : pilots_) change(pilot);
+    tick();
+  }
+  FederationExecution& execution() { return execution_; }
+  std::deque<Pilot>& pilots() { return pilots_; }
+
+ private:
+  std::mt19937 random_;
+  FederationExecution execution_;
+  std::deque<Pilot> pilots_;
+  Post post_;
+};
+
+TEST(Regions, ScopeAndInteractionsFollowTheStandardsDefinitionInRandomFederations) {
+  constexpr unsigned seed_count = 2000;
+  for (unsigned seed = 1; seed <= seed_count && !::testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Airspace space(seed, 2 + static_cast<int>(seed % 3));
+    for (int step = 0; step < 6 && !::testing::Test::HasFailure(); ++step) {
+      space.step();
+      space.expect_scope_is_due();
+      space.expect_updates_are_due(static_cast<float>(step));
+      space.expect_calls_are_due();
+    }
+  }
+}
+
+TEST(Regions, AChangedRegionTakesEffectWithinOneTickInEveryDimension) {
+  for (const DimensionHandle moved : {x, y, altitude, channel}) {
+    SCOPED_TRACE(airspace().at(moved).name);
+    Airspace space(1, 2);
+    Pilot &owner = space.pilots()[0], &watcher = space.pilots()[1];
+    const DimensionSet all{x, y, altitude, channel};
+    const RegionHandle update = owner.ambassador.create_region(all), view = watcher.ambassador.create_region(all);
+    all.for_each([&](DimensionHandle each) {
+      owner.ambassador.set_range_bounds(update, each, {1.0, 2.0});
+      watcher.ambassador.set_range_bounds(view, each, {1.0, 2.0});
+    });
+    const AttributeRegions published{AttributeSet{where}, {update}}, wanted{AttributeSet{where}, {view}};
+    owner.ambassador.register_object_instance_with_regions(aircraft, std::span(&published, 1));
+    watcher.ambassador.subscribe_object_class_attributes_with_regions(aircraft, std::span(&wanted, 1));
+    owner.ambassador.commit_region_modifications(update);
+    watcher.ambassador.commit_region_modifications(view);
+    space.tick();
+    ASSERT_EQ(watcher.heard.objects.size(), 1u);
+    const Recorder::Known& known = watcher.heard.objects.begin()->second;
+    EXPECT_TRUE(known.is_in_scope);
+    watcher.ambassador.set_range_bounds(view, moved, {4.0, 5.0});
+    space.tick();
+    EXPECT_TRUE(known.is_in_scope) << "set, but not committed";
+    watcher.ambassador.commit_region_modifications(view);
+    space.tick();
+    EXPECT_FALSE(known.is_in_scope);
+    owner.ambassador.set_range_bounds(update, moved, {4.0, 5.0});
+    owner.ambassador.commit_region_modifications(update);
+    space.tick();
+    EXPECT_TRUE(known.is_in_scope);
+  }
+}
+
+TEST(Regions, UnchangedRegionsCostNothing) {
+  Airspace space(7, 4);
+  for (int step = 0; step < 20; ++step) space.step();
+  const DistributionCounters before = space.execution().distribution().counters();
+  const im::FilterCounters filtered = space.execution().filter().counters();
+  for (Pilot& pilot : space.pilots())
+    for (const Area& area : pilot.areas)
+      if (!area.committed.empty()) pilot.ambassador.commit_region_modifications(area.handle);
+  space.tick();
+  const DistributionCounters after = space.execution().distribution().counters();
+  EXPECT_EQ(after.regions_changed, before.regions_changed);
+  EXPECT_EQ(after.pairs_reconsidered, before.pairs_reconsidered);
+  EXPECT_EQ(after.ranges_tested, before.ranges_tested);
+  EXPECT_EQ(space.execution().filter().counters().pairs_tested, filtered.pairs_tested);
+  EXPECT_EQ(space.execution().filter().counters().regions_moved, filtered.regions_moved);
+}
+
+TEST(Regions, OverThePlaneAloneNeedNoTestOutsideTheFilter) {
+  Airspace space(1, 2);
+  Pilot &owner = space.pilots()[0], &watcher = space.pilots()[1];
+  const RegionHandle view = watcher.ambassador.create_region();
+  watcher.ambassador.subscribe_object_class_attributes(aircraft, AttributeSet{where}, view);
+  std::vector<RegionBounds> bounds;
+  for (int i = 0; i < 100; ++i) {
+    bounds.push_back({owner.ambassador.create_region(), {}});
+    owner.ambassador.associate_regions_for_updates(owner.ambassador.register_object_instance(aircraft), bounds.back().region);
+  }
+  for (int step = 0; step < 10; ++step) {
+    for (RegionBounds& each : bounds) {
+      const double at = static_cast<double>(space.below(10));
+      each.bounds = {at, at, at, at};
+    }
+    owner.ambassador.commit_region_modifications(bounds);
+    watcher.ambassador.set_region(view, {2.0, 2.0, 2.0 + step, 8.0});
+    watcher.ambassador.commit_region_modifications(view);
+    space.tick();
+  }
+  EXPECT_EQ(space.execution().distribution().counters().ranges_tested, 0u);
+  EXPECT_GT(space.execution().distribution().counters().entries, 0u);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
