@@ -145,7 +145,7 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
   return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes();
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes();
 }
 
 }  // namespace rink::rti

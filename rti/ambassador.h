@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "im/filter.h"
+#include "rti/baselines/keyframe_memory.h"
 #include "rti/callbacks/callback_queue.h"
 #include "rti/federate_ambassador.h"
 #include "rti/distribution/region_book.h"
@@ -21,6 +22,8 @@
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
+
+struct DeltaHeader;
 
 /// How long a silent peer is waited for.
 struct Patience {
@@ -35,6 +38,7 @@ struct AmbassadorCounters {
   std::uint64_t interactions_sent = 0, interactions_received = 0;
   std::uint64_t objects_discovered = 0, objects_removed = 0;
   std::uint64_t scope_changes = 0;
+  std::uint64_t keyframes_acknowledged = 0, differences_refused = 0;  ///< of periodic state (docs/wire.md, "Baselines")
 };
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
@@ -182,6 +186,12 @@ class Ambassador {
   void check(DimensionHandle dimension) const;
   void check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const;
   void check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const;
+  // Periodic state (ambassador_baselines.cpp).
+  enum class DeltaOutcome : std::uint8_t { decoded, no_baseline, malformed };
+  bool take_keyframe(Reader& reader);
+  void end_keyframe();
+  bool take_deltas(Reader& reader);
+  DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
@@ -219,6 +229,7 @@ class Ambassador {
   std::uint64_t stamped_frame_ = 0;    ///< the frame in which it was said: a stamp is good for its frame
   std::optional<Stamp> heard_stamp_;   ///< of the frame being read
   std::vector<std::byte> coded_, decoded_;
+  KeyframeMemory keyframes_;
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
   bool has_clock_ = false, has_said_ = false, has_heard_ = false;
   AmbassadorCounters counters_;

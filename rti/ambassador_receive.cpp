@@ -38,6 +38,7 @@ bool Ambassador::take_frame(Bytes frame) {
   Reader reader(frame);
   while (!reader.is_at_end() && phase_ != Phase::ended)
     if (!take_message(reader)) return false;
+  end_keyframe();
   return true;
 }
 
@@ -61,6 +62,8 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::out_of_scope: return take_scope(reader, kind);
     case MessageKind::stamp: return take_stamp(reader);
     case MessageKind::updates: return take_updates(reader);
+    case MessageKind::begin_keyframe: return take_keyframe(reader);
+    case MessageKind::deltas: return take_deltas(reader);
     case MessageKind::interaction: return take_interaction(reader);
     default: return false;
   }

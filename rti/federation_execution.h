@@ -11,6 +11,7 @@
 
 #include "im/filter.h"
 #include "rti/ambassador.h"
+#include "rti/baselines/baseline_counters.h"
 #include "rti/central_component.h"
 #include "rti/wire/bytes.h"
 #include "rti/federation_services.h"
@@ -41,6 +42,7 @@ struct FederationSettings {
   std::uint32_t object_max = 1u << 20;      ///< registered at once
   std::uint32_t objects_per_federate_max = object_block;
   Patience patience;
+  std::uint32_t keyframe_period = 2;        ///< every so many flushes with periodic state are a keyframe (docs/wire.md, "Baselines")
 };
 
 struct FederationCounters {
@@ -95,6 +97,7 @@ class FederationExecution final : public CentralComponent {
   /// Appends every region with bounds that a federate subscribes with.
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   const FederationCounters& counters() const;
+  const BaselineCounters& baseline_counters() const;
   const im::Filter& filter() const;
   const DataDistribution& distribution() const;
 

@@ -73,8 +73,10 @@ void for_each_record(const UpdateRun& run, const FederateInterest& interest, Vis
 void FederationExecution::Parts::flush(Outlet& outlet) {
   send_answers(outlet);
   runs_ = buffering_->seal();
+  baselines_.begin(runs_, federates_.size());
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     if (federates_[slot].is_joined) flush_federate(slot, outlet);
+  baselines_.end();
   runs_ = {};
   buffering_->clear();
   objects_.recycle();
@@ -91,6 +93,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   scratch_.resize(frame_header_size);
   scratch_taken_ = 0;
   frame_stamp_.reset();
+  is_keyframe_begun_ = false;
   pieces_.clear();
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   write_scope_events(slot);
@@ -188,6 +191,11 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   const std::size_t before = scratch_.size();
   for (const UpdateRun& run : runs_) {
     if (run.owner == slot) continue;
+    const auto index = static_cast<std::size_t>(&run - runs_.data());
+    if (baselines_.covers(index)) {
+      gather_periodic(index, slot);
+      continue;
+    }
     if (!interest.is_uniform) {
       gather_cut_run(run, interest);
       continue;

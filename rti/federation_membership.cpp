@@ -30,6 +30,7 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
       interest_(*distribution_),
       buffering_(buffering_of(services)),
+      baselines_(fom, settings.keyframe_period),
       interaction_subscribers_(fom.interaction_classes().size()) {}
 
 void FederationExecution::Parts::connect(ConnectionId connection) {
@@ -131,6 +132,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   objects_.for_each_in_block(federate.block, [this](ObjectSlot object) { delete_object(object); });
   interest_.remove_federate(slot);
   buffering_->remove_federate(slot);
+  baselines_.forget(slot);
   if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);  // else its handles have been seen
   names_.erase(federate.name);
   federate.is_joined = federate.is_watching = false;

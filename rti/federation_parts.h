@@ -14,6 +14,7 @@
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
 #include "rti/buffering/buffering.h"
+#include "rti/baselines/baselines.h"
 
 namespace rink::rti {
 
@@ -139,6 +140,13 @@ class FederationExecution::Parts {
     write(bytes, message);
   }
 
+  // Periodic state by baselines (federation_baselines.cpp).
+  Outcome take_keyframe(std::uint32_t slot, MessageKind kind, Reader& reader);
+  void gather_periodic(std::size_t run, std::uint32_t slot);
+  void cut_periodic(const UpdateRun& run, const DeltaBlock& block, std::uint32_t slot);
+  void count_periodic(std::size_t records, std::size_t differences);
+  void begin_keyframe(const Stamp& stamp);
+
   const Fom& fom_;
   FederationSettings settings_;
   ObjectTable objects_;
@@ -147,6 +155,8 @@ class FederationExecution::Parts {
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
   std::span<const UpdateRun> runs_;  ///< of the flush at hand
+  Baselines baselines_;
+  bool is_keyframe_begun_ = false;  ///< in the frame that grows in `scratch_`
   std::vector<Connection> connections_;  ///< by id
   std::vector<Federate> federates_;      ///< by slot
   std::vector<std::uint32_t> free_federates_, free_blocks_;

@@ -77,6 +77,8 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::stamp:
     case MessageKind::updates:
     case MessageKind::interaction: return take_object(slot, kind, reader);
+    case MessageKind::acknowledge_keyframe:
+    case MessageKind::refuse_keyframe: return take_keyframe(slot, kind, reader);
     default: return Violation::malformed;
   }
 }

@@ -77,6 +77,13 @@ std::optional<DimensionHandle> Fom::dimension(std::string_view name) const {
   return index ? std::optional(DimensionHandle{*index}) : std::nullopt;
 }
 
+std::optional<AttributeHandle> Fom::periodic_attribute(ObjectClassHandle handle) const {
+  const std::vector<Attribute>& attributes = at(handle).attributes;
+  for (std::uint32_t i = 0; i < attributes.size(); ++i)
+    if (attributes[i].baselines) return AttributeHandle{i};
+  return std::nullopt;
+}
+
 AttributeSet Fom::attributes(ObjectClassHandle handle) const {
   const std::size_t count = at(handle).attributes.size();
   return AttributeSet((1u << count) - 1u);

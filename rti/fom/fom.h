@@ -94,6 +94,8 @@ class Fom {
   const ObjectClass& at(ObjectClassHandle handle) const { return object_classes_[handle.value]; }
   const InteractionClass& at(InteractionClassHandle handle) const { return interaction_classes_[handle.value]; }
   const Dimension& at(DimensionHandle handle) const { return dimensions_[handle.value]; }
+  /// The attribute of a class that is told by baselines: the first of its attributes that are periodic and quantised throughout.
+  std::optional<AttributeHandle> periodic_attribute(ObjectClassHandle handle) const;
   /// All attributes of a class.
   AttributeSet attributes(ObjectClassHandle handle) const;
   /// True if `handle` is `ancestor` or inherits from it.

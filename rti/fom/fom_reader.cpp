@@ -253,7 +253,8 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   attribute.transportation = transportation(node);
   attribute.order = order(node);
   attribute.dimensions = dimensions_of(node);
-  quantise(attribute, text_or(node, "updateType", "NA") == "Periodic");
+  const bool is_first = std::ranges::none_of(owner.attributes, [](const Attribute& other) { return other.baselines != nullptr; });
+  quantise(attribute, is_first && text_or(node, "updateType", "NA") == "Periodic");
   return attribute;
 }
 

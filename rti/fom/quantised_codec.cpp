@@ -100,8 +100,21 @@ void QuantisedCodec::encode(Bytes value, double, std::vector<std::byte>& coded) 
 }
 
 std::optional<std::size_t> QuantisedCodec::size(Bytes coded) const {
-  if (coded.empty()) return std::nullopt;
-  return (coded_bits((coded[0] & std::byte{1}) != std::byte{0}) + 7) / 8;
+  BitReader bits(coded);
+  bool is_full = false;
+  if (!bits.flag(is_full)) return std::nullopt;
+  const std::size_t size = (coded_bits(is_full) + 7) / 8;
+  if (size > coded.size()) return std::nullopt;
+  return is_full || is_sound(bits) ? std::optional(size) : std::nullopt;
+}
+
+/// True if the counts, all of which are there, are in their ranges.
+bool QuantisedCodec::is_sound(BitReader bits) const {
+  for (const QuantisedField& field : fields_) {
+    double number = 0.0;
+    if (field.grid ? !bits.quantised(number, *field.grid) : !bits.skip(8 * field.size)) return false;
+  }
+  return bits.finish();
 }
 
 bool QuantisedCodec::decode(BitReader& bits, std::vector<std::byte>& value) const {
@@ -119,6 +132,14 @@ bool QuantisedCodec::decode(BitReader& bits, std::vector<std::byte>& value) cons
 bool QuantisedCodec::decode(Bytes coded, double, std::vector<std::byte>& value) const {
   BitReader bits(coded);
   return decode(bits, value) && bits.finish() && bits.left() == 0;
+}
+
+std::optional<bool> QuantisedCodec::decode(BitReader& bits, Counts& counts, std::vector<std::byte>& value) const {
+  assert(is_all_quantised_);
+  bool is_full = false;
+  if (!bits.flag(is_full) || !(is_full ? read_octets(bits, value_size_, value) : exchange_counts(bits, counts))) return std::nullopt;
+  if (!is_full) append_value(counts, value);
+  return !is_full;
 }
 
 bool QuantisedCodec::read_counts(Bytes coded, Counts& counts) const {

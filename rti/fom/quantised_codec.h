@@ -53,16 +53,19 @@ class QuantisedCodec : public AttributeCodec {
   }
   /// Appends the value of a record that `is_all_quantised`.
   void append_value(const Counts& counts, std::vector<std::byte>& value) const;
-  /// Reads one coded value from the middle of a stream and appends it; false if it is malformed.
-  bool decode(BitReader& reader, std::vector<std::byte>& value) const;
+  /// Reads one coded value of such a record from the middle of a stream and appends it; nothing if it is malformed, false if it travels in full and thus has no counts.
+  std::optional<bool> decode(BitReader& reader, Counts& counts, std::vector<std::byte>& value) const;
 
   std::string name() const override;
   void encode(Bytes value, double time, std::vector<std::byte>& coded) const override;
+  /// Looks at the counts too, so that who forwards a value knows that it can be decoded.
   std::optional<std::size_t> size(Bytes coded) const override;
   bool decode(Bytes coded, double time, std::vector<std::byte>& value) const override;
 
  private:
   bool is_in_range(Bytes value) const;
+  bool decode(BitReader& reader, std::vector<std::byte>& value) const;
+  bool is_sound(BitReader reader) const;
 
   std::vector<QuantisedField> fields_;
   std::size_t value_size_ = 0, packed_bits_ = 1;

@@ -45,6 +45,7 @@ class BitWriter {
       return true;
     }
     append(8);
+    written_ += 64;
     pending_ = used_ == 0 ? 0 : value >> (64 - used_);
     used_ = used_ + size - 64;
     return true;
@@ -74,8 +75,12 @@ class BitWriter {
     return bits(value & ((std::uint64_t{1} << order) - 1), order);
   }
 
+  /// Bits written so far.
+  std::size_t at() const { return written_ + used_; }
+
   void finish() {
     append((used_ + 7) / 8);
+    written_ += (used_ + 7) / 8 * 8;
     pending_ = 0;
     used_ = 0;
   }
@@ -86,6 +91,7 @@ class BitWriter {
     bytes_.insert(bytes_.end(), first, first + size);
   }
   std::vector<std::byte>& bytes_;
+  std::size_t written_ = 0;  ///< bits that left `pending_`
   std::uint64_t pending_ = 0;
   unsigned used_ = 0;  ///< bits of `pending_`, below 64
 };
@@ -146,6 +152,11 @@ class BitReader {
     value = head << order | tail;
     return true;
   }
+  bool skip(std::size_t size) {
+    if (size > left()) return false;
+    at_ += size;
+    return true;
+  }
   /// Steps over what fills the last byte up; false if that is anything but zeros.
   bool finish() {
     std::uint64_t rest = 0;
@@ -166,6 +177,17 @@ class BitReader {
   Bytes bytes_;
   std::size_t at_ = 0;
 };
+
+/// Appends `size` bits of `from`, the first of them the bit `at`; all must be there.
+inline void append_bits(BitWriter& writer, Bytes from, std::size_t at, std::size_t size) {
+  BitReader reader(from, at);
+  for (std::uint64_t part = 0; size > 0;) {
+    const auto taken = static_cast<unsigned>(std::min<std::size_t>(size, 64));
+    reader.bits(part, taken);
+    writer.bits(part, taken);
+    size -= taken;
+  }
+}
 
 /// Counts the bits that a writer would append.
 class BitMeasurer {

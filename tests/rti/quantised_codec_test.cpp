@@ -5,23 +5,11 @@
 #include <limits>
 #include <random>
 
-#include "tests/rti/fjord.h"
-#include "tests/rti/rig.h"
+#include "tests/rti/fjord_traffic.h"
 
 namespace rink::rti::testing {
 namespace {
 
-double between(std::mt19937_64& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-
-std::vector<std::byte> reversed(std::vector<std::byte> bytes) {
-  std::ranges::reverse(bytes);
-  return bytes;
-}
-std::vector<std::byte> track_of(double x, double y, float speed_x, float speed_y) {
-  std::vector<std::byte> bytes = values_of(x, y);
-  for (const float speed : {speed_x, speed_y}) std::ranges::copy(reversed(values_of(speed)), std::back_inserter(bytes));
-  return bytes;
-}
 std::vector<std::byte> light_of(double x, double y, double energy, std::int32_t colour, std::int16_t below) { return values_of(x, y, energy, colour, below); }
 
 template <class Number>

@@ -1,0 +1,64 @@
+// Records in the order of their objects, so that a block of neighbours walks through them.
+#include "rti/baselines/keyframe_memory.h"
+
+#include <algorithm>
+
+namespace rink::rti {
+
+void KeyframeMemory::clear(Keyframe& keyframe) {
+  keyframe.number.reset();
+  keyframe.records.clear();
+  keyframe.counts.clear();
+  keyframe.next = 0;
+}
+
+void KeyframeMemory::begin(std::uint16_t number) {
+  if (open_) seal();
+  keyframes_.resize(keyframe_window);
+  clear(place_of(number));
+  open_ = number;
+}
+
+void KeyframeMemory::add(std::uint32_t object, double time, std::span<const std::int64_t> counts) {
+  Keyframe& keyframe = place_of(*open_);
+  keyframe.records.push_back({object, static_cast<std::uint32_t>(keyframe.counts.size()), static_cast<std::uint32_t>(counts.size()), time});
+  keyframe.counts.insert(keyframe.counts.end(), counts.begin(), counts.end());
+}
+
+std::optional<std::uint16_t> KeyframeMemory::seal() {
+  if (!open_) return std::nullopt;
+  Keyframe& keyframe = place_of(*open_);
+  const auto by_object = [](const Record& a, const Record& b) { return a.object < b.object; };
+  if (!std::ranges::is_sorted(keyframe.records, by_object)) std::ranges::stable_sort(keyframe.records, by_object);
+  keyframe.number = open_;
+  open_.reset();
+  return keyframe.number;
+}
+
+std::optional<KeyframeMemory::Baseline> KeyframeMemory::find(std::uint16_t number, std::uint32_t object) {
+  if (keyframes_.empty()) return std::nullopt;
+  Keyframe& keyframe = place_of(number);
+  if (keyframe.number != number) return std::nullopt;
+  const std::vector<Record>& records = keyframe.records;
+  const auto is_last_of = [&](std::size_t at) { return at < records.size() && records[at].object == object && (at + 1 == records.size() || records[at + 1].object != object); };
+  if (!is_last_of(keyframe.next)) {
+    const auto beyond = std::ranges::upper_bound(records, object, {}, &Record::object);  // an object that was told twice is as it was told last
+    keyframe.next = beyond == records.begin() ? records.size() : static_cast<std::size_t>(beyond - records.begin()) - 1;
+    if (!is_last_of(keyframe.next)) return std::nullopt;
+  }
+  const Record& record = records[keyframe.next++];
+  return Baseline{record.time, std::span(keyframe.counts).subspan(record.at, record.count)};
+}
+
+void KeyframeMemory::drop_before(std::uint16_t number) {
+  for (Keyframe& each : keyframes_)
+    if (each.number && static_cast<std::int16_t>(*each.number - number) < 0) clear(each);
+}
+
+std::size_t KeyframeMemory::memory_bytes() const {
+  std::size_t sum = keyframes_.capacity() * sizeof(Keyframe);
+  for (const Keyframe& each : keyframes_) sum += each.records.capacity() * sizeof(Record) + each.counts.capacity() * sizeof(std::int64_t);
+  return sum;
+}
+
+}  // namespace rink::rti

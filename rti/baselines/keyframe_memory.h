@@ -1,0 +1,54 @@
+// What a federate keeps of the keyframes that it was sent, so that differences to them have something to be differences to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rink::rti {
+
+/// Keyframes that an RTI may refer to: those of the last so many numbers.
+inline constexpr std::uint16_t keyframe_window = 16;
+
+/// The last few keyframes, each with the counts of its objects. Its memory follows what was sent since the oldest keyframe that the RTI still refers to.
+class KeyframeMemory {
+ public:
+  /// An object's state at a keyframe.
+  struct Baseline {
+    double time = 0.0;  ///< of the stamp under which it was told [s]
+    std::span<const std::int64_t> counts;
+  };
+
+  /// What is added until `seal` belongs to this keyframe.
+  void begin(std::uint16_t number);
+  bool is_open() const { return open_.has_value(); }
+  void add(std::uint32_t object, double time, std::span<const std::int64_t> counts);
+  /// Completes the keyframe that was begun, if any, and gives its number.
+  std::optional<std::uint16_t> seal();
+  /// Nothing if the object or the keyframe is not known. Valid until the next call of another member. Fastest in ascending order of objects.
+  std::optional<Baseline> find(std::uint16_t number, std::uint32_t object);
+  /// Nobody will refer to a keyframe before this one any more.
+  void drop_before(std::uint16_t number);
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Record {
+    std::uint32_t object = 0, at = 0, count = 0;  ///< counts from `at` on
+    double time = 0.0;
+  };
+  struct Keyframe {
+    std::optional<std::uint16_t> number;
+    std::vector<Record> records;  ///< by object once sealed
+    std::vector<std::int64_t> counts;
+    std::size_t next = 0;  ///< where the last look-up ended
+  };
+  Keyframe& place_of(std::uint16_t number) { return keyframes_[number % keyframe_window]; }
+  static void clear(Keyframe& keyframe);
+
+  std::vector<Keyframe> keyframes_;  ///< none before the first is begun
+  std::optional<std::uint16_t> open_;
+};
+
+}  // namespace rink::rti
