@@ -29,7 +29,7 @@ constexpr std::array representations = {
     Representation{"HLAinteger32LE", Form::integer32, 4, false}, Representation{"HLAinteger32BE", Form::integer32, 4, true},
 };
 
-std::string named(const Node& node) { return "<" + std::string(node.name()) + "> '" + node.child("name").text().get() + "'"; }
+std::string named(const Node& node) { return std::string("<").append(node.name()).append("> '").append(node.child("name").text().get()).append("'"); }
 
 /// The rest of the note of `node` that begins with `words`; nothing if it has none.
 std::optional<std::string> note(const Node& node, const std::string& words) {

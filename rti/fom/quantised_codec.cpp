@@ -71,10 +71,15 @@ QuantisedCodec::QuantisedCodec(std::vector<QuantisedField> fields) : fields_(std
 
 std::string QuantisedCodec::name() const {
   std::string text = "rink-quantised-1";
+  const auto add = [&text](char mark, std::int64_t number) {
+    text += mark;
+    text += std::to_string(number);
+  };
   for (const QuantisedField& field : fields_) {
-    text += " " + std::to_string(static_cast<int>(field.form)) + (field.is_big_endian ? "b" : "l") + std::to_string(field.size);
-    if (field.grid) text += ":" + std::to_string(std::ilogb(field.grid->step)) + ":" + std::to_string(field.grid->first) + ":" + std::to_string(field.grid->last);
-    if (field.rate_of) text += "@" + std::to_string(*field.rate_of);
+    add(' ', static_cast<int>(field.form));
+    add(field.is_big_endian ? 'b' : 'l', field.size);
+    if (field.grid) add(':', std::ilogb(field.grid->step)), add(':', field.grid->first), add(':', static_cast<std::int64_t>(field.grid->last));
+    if (field.rate_of) add('@', *field.rate_of);
   }
   return text;
 }
