@@ -65,7 +65,7 @@ void Client::subscribe_once_seated() {
   state_ = State::seated;
   view_ = ambassador_.create_region();
   look_around(seat_->position);
-  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory}, view_);
+  ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory, model_.snapshot}, view_);
   if (settings_.only_watches) state_ = State::playing;
 }
 

@@ -20,6 +20,12 @@ struct Position {
 /// What a federate is told of a centre at `position` [m].
 inline Position rounded(const physics::Vector2& position) { return {static_cast<float>(position.x()), static_cast<float>(position.y())}; }
 
+/// Where an entity's centre is [m] and how fast it moves [m/s]; the object model says how finely it travels.
+struct Snapshot {
+  physics::Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
+  friend bool operator==(const Snapshot&, const Snapshot&) = default;
+};
+
 /// What an entity is. For discs both half extents are the radius [m].
 struct Shape {
   std::uint8_t kind = 0;  ///< a physics::BodyKind
@@ -107,6 +113,11 @@ bool exchange(Stream& stream, MatchState& state) {
 template <class Stream>
 bool exchange(Stream& stream, Position& position) {
   return stream.number(position.x) && stream.number(position.y);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Snapshot& snapshot) {
+  return stream.finite(snapshot.position.x()) && stream.finite(snapshot.position.y()) && stream.finite(snapshot.velocity.x()) && stream.finite(snapshot.velocity.y());
 }
 
 template <class Stream>

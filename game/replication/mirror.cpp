@@ -49,14 +49,28 @@ bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes
     follow_law(entity);
     return true;
   }
+  if (attributes == snapshot_) {
+    if (!reflect_snapshot(reader, entity) || !reader.is_at_end()) return false;
+    follow_law(entity);
+    return true;
+  }
   MirroredEntity heard = entity;
   if (attributes.contains(model_.shape) && !exchange(reader, heard.shape)) return false;
   if (attributes.contains(model_.input) && !exchange(reader, heard.input)) return false;
   if (attributes.contains(model_.position) && !exchange(reader, heard.position)) return false;
   if (attributes.contains(model_.trajectory) && !exchange(reader, heard.trajectory.emplace())) return false;
+  if (attributes.contains(model_.snapshot) && !reflect_snapshot(reader, heard)) return false;
   if (!reader.is_at_end()) return false;
   follow_law(heard);
   entity = heard;
+  return true;
+}
+
+/// Until the next one the entity goes on as one of its kind does on its own.
+bool Mirror::reflect_snapshot(rti::Reader& reader, MirroredEntity& entity) const {
+  Snapshot heard;
+  if (!exchange(reader, heard)) return false;
+  entity.trajectory = Trajectory{.time = entity.stamp.time, .position = heard.position, .velocity = heard.velocity};
   return true;
 }
 

@@ -23,7 +23,7 @@ struct MirroredEntity {
   Shape shape;
   Input input;
   Position position;                    ///< as last told; of those that are told trajectories, where it began
-  std::optional<Trajectory> trajectory; ///< as last told; of entities that are told trajectories
+  std::optional<Trajectory> trajectory; ///< as last told, or begun by the last snapshot; of entities that are told either
   physics::Motion motion;               ///< the law it stands for
   rti::Stamp stamp;       ///< of the newest update
   bool in_scope = false;  ///< false: it left the federate's interest, the rest is what was true then
@@ -43,7 +43,7 @@ struct MirrorCounters {
 /// Applies the RTI's callbacks about objects. Look-ups take constant time; nothing is allocated once all entities are known.
 class Mirror {
  public:
-  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position}, trajectory_{model.trajectory} {}
+  explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position}, trajectory_{model.trajectory}, snapshot_{model.snapshot} {}
 
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
   void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
@@ -77,12 +77,13 @@ class Mirror {
 
   MirroredEntity* entity(rti::ObjectHandle object);
   bool reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values);
+  bool reflect_snapshot(rti::Reader& reader, MirroredEntity& entity) const;
   bool reflect_field(rti::AttributeSet attributes, rti::Bytes values);
   bool reflect_match(rti::AttributeSet attributes, rti::Bytes values);
   void follow_law(MirroredEntity& entity) const;
 
   const ObjectModel& model_;
-  const rti::AttributeSet position_, trajectory_;
+  const rti::AttributeSet position_, trajectory_, snapshot_;
   rti::ObjectMap<Known> known_;
   std::vector<MirroredEntity> entities_;
   Goals goals_;

@@ -54,6 +54,7 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       input(attribute<Input>(fom, entity, "input")),
       position(attribute<Position>(fom, entity, "position")),
       trajectory(attribute<Trajectory>(fom, entity, "trajectory")),
+      snapshot(attribute<Snapshot>(fom, entity, "snapshot")),
       goals(attribute<Goals>(fom, score, "goals")),
       extent(attribute<Extent>(fom, field, "extent")),
       drag(attribute<Drag>(fom, field, "drag")),

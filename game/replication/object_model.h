@@ -12,7 +12,7 @@ struct ObjectModel {
   explicit ObjectModel(const rti::Fom& fom);
 
   rti::ObjectClassHandle entity, score, field, match;
-  rti::AttributeHandle shape, input, position, trajectory;  ///< of entity
+  rti::AttributeHandle shape, input, position, trajectory, snapshot;  ///< of entity
   rti::AttributeHandle goals;                   ///< of score
   rti::AttributeHandle extent, drag;            ///< of field
   rti::AttributeHandle match_state, match_scene, match_tick;  ///< of match

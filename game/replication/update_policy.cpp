@@ -1,4 +1,4 @@
-// The paper's policy, positions every tick, and the one of exact motion, a trajectory when it changes.
+// The paper's policy, positions every tick; delta snapshots; and the one of exact motion, a trajectory when it changes.
 #include "game/replication/update_policy.h"
 
 #include "game/replication/attributes.h"
@@ -16,6 +16,32 @@ class Periodic : public UpdatePolicy {
     Position position = rounded(game.position(entity.id));
     exchange(value, position);
   }
+};
+
+Snapshot snapshot_of(const physics::World& world, physics::BodyId body) {
+  Snapshot snapshot{.position = world.position(body)};
+  if (!world.is_in_play(body) || world.is_resting(body)) return snapshot;
+  const physics::Motion motion = world.motion(body);
+  snapshot.velocity = motion.at(std::max(world.now(), motion.time)).velocity;
+  return snapshot;
+}
+
+/// Sends where every moving body is and how fast, every tick: delta snapshots, for the RTI tells each receiver the difference to what the velocity foretold from a state that it acknowledged.
+class Snapshots : public UpdatePolicy {
+ public:
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.snapshot; }
+  bool is_due(const Game& game, const Entity& entity) override {
+    return entity.kind != physics::BodyKind::post && snapshot_of(game.world(), entity.id) != told_[entity.id.index];
+  }
+  void write(const Game& game, const Entity& entity, rti::Writer& value) override {
+    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
+    Snapshot& told = told_[entity.id.index];
+    told = snapshot_of(game.world(), entity.id);
+    exchange(value, told);
+  }
+
+ private:
+  std::vector<Snapshot> told_;  ///< by entity
 };
 
 /// Sends where a body is, how fast and by which law when the one told last no longer foretells it; between, receivers evaluate the engine's own closed form.
@@ -57,10 +83,11 @@ class OnEvent : public UpdatePolicy {
 
 std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name) {
   if (name == "periodic") return std::make_unique<Periodic>();
+  if (name == "snapshot") return std::make_unique<Snapshots>();
   if (name == "on-event") return std::make_unique<OnEvent>();
   return nullptr;
 }
 
-std::vector<std::string> update_policy_names() { return {"periodic", "on-event"}; }
+std::vector<std::string> update_policy_names() { return {"periodic", "snapshot", "on-event"}; }
 
 }  // namespace rink::game
