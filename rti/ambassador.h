@@ -55,6 +55,8 @@ class Ambassador {
   void create_federation_execution(std::string_view federation);
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
+  /// Asks for the counters of the management object model, answered by `report_management`: before the join about every execution of the host, after it about one's own.
+  void query_management();
   /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at once; objects and interactions only `joined`.
   /// Throws FederateAlreadyExecutionMember. After `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.
   void join(std::string_view federation, std::string_view federate_name, std::string_view federate_type);
@@ -123,6 +125,28 @@ class Ambassador {
   DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class, AttributeHandle attribute) const;
   DimensionSet get_available_dimensions_for_interaction_class(InteractionClassHandle interaction_class) const;
 
+  /// Look-ups, answered here from the object model. By name they throw NameNotFound, for handles of nothing ObjectClassNotDefined,
+  /// AttributeNotDefined, InteractionClassNotDefined, InteractionParameterNotDefined. Class names may stand alone where that is unambiguous,
+  /// and are told qualified. Federates are known from `watch_federates`, and oneself.
+  FederateHandle get_federate_handle(std::string_view name) const;
+  const std::string& get_federate_name(FederateHandle federate) const;
+  ObjectClassHandle get_object_class_handle(std::string_view name) const;
+  std::string get_object_class_name(ObjectClassHandle object_class) const;
+  /// Of an object that is known or own; ObjectInstanceNotKnown.
+  ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
+  AttributeHandle get_attribute_handle(ObjectClassHandle object_class, std::string_view name) const;
+  const std::string& get_attribute_name(ObjectClassHandle object_class, AttributeHandle attribute) const;
+  InteractionClassHandle get_interaction_class_handle(std::string_view name) const;
+  std::string get_interaction_class_name(InteractionClassHandle interaction_class) const;
+  ParameterHandle get_parameter_handle(InteractionClassHandle interaction_class, std::string_view name) const;
+  const std::string& get_parameter_name(InteractionClassHandle interaction_class, ParameterHandle parameter) const;
+  /// "HLAreliable" and "HLAbestEffort".
+  static Transportation get_transportation_type(std::string_view name);
+  static std::string_view get_transportation_type_name(Transportation transportation);
+  /// "Receive" and "TimeStamp".
+  static Order get_order_type(std::string_view name);
+  static std::string_view get_order_name(Order order);
+
   /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
   /// wait. In the immediate model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its connection. Throw CallNotAllowedFromWithinCallback.
   bool evoke_callback();
@@ -170,6 +194,7 @@ class Ambassador {
   bool take_synchronization(Reader& reader, MessageKind kind);
   bool take_host_answer(Reader& reader, MessageKind kind);
   bool take_execution(Reader& reader);
+  bool take_report(Reader& reader, MessageKind kind);
   bool take_federate(Reader& reader, std::uint8_t kind);
   bool take_object(Reader& reader, std::uint8_t kind);
   bool take_scope(Reader& reader, std::uint8_t kind);
@@ -212,8 +237,10 @@ class Ambassador {
   RegionBook regions_;
   std::vector<Range> ranges_;
   std::vector<std::byte> region_records_;
+  std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< that we were told of, and ourselves first
   std::vector<std::string> announced_points_;  ///< synchronisation points that we have not achieved yet
   std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
+  std::vector<FederationReport> reports_;      ///< likewise
   bool has_asked_ = false;                     ///< the host, before the join
   FrameWriter outgoing_;
   FrameReader incoming_;

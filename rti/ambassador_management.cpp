@@ -3,6 +3,7 @@
 
 #include "rti/ambassador.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
 
 namespace rink::rti {
 
@@ -41,6 +42,11 @@ void Ambassador::destroy_federation_execution(std::string_view federation) {
 
 void Ambassador::list_federation_executions() { ask(ListFederationExecutionsMessage{}); }
 
+void Ambassador::query_management() {
+  if (phase_ == Phase::idle) ask(QueryManagementMessage{});
+  else say(QueryManagementMessage{});
+}
+
 void Ambassador::join(std::string_view federation, std::string_view federate_name, std::string_view federate_type) {
   if (phase_ != Phase::idle) throw RtiException(HlaError::federate_already_execution_member, "an ambassador joins once");
   require_text(federation, text_max, "the federation execution's name");
@@ -48,6 +54,7 @@ void Ambassador::join(std::string_view federation, std::string_view federate_nam
   require_text(federate_type, text_max, "the federate's type");
   phase_ = Phase::joining;
   regions_.sign(federate_name);
+  federates_ = {{FederateHandle{}, std::string(federate_name)}};
   JoinMessage message;
   message.fom_hash = fom_.hash();
   message.federation = federation;
@@ -121,6 +128,25 @@ bool Ambassador::take_execution(Reader& reader) {
   std::vector<FederationExecutionInformation> executions;
   executions.swap(executions_);
   callbacks_.report_federation_executions(executions);
+  return true;
+}
+
+bool Ambassador::take_report(Reader& reader, MessageKind kind) {
+  if (kind == MessageKind::federation_report) {
+    FederationReportMessage message;
+    if (!exchange(reader, message)) return false;
+    reports_.push_back({std::string(message.federation), std::string(message.model), std::string(message.filter), message.objects, message.drops, {}});
+    return true;
+  }
+  if (kind == MessageKind::federate_report) {
+    FederateReportMessage message;
+    if (!exchange(reader, message) || reports_.empty()) return false;
+    reports_.back().federates.push_back({{message.federate}, std::string(message.name), std::string(message.type), message.counts});
+    return true;
+  }
+  std::vector<FederationReport> reports;
+  reports.swap(reports_);
+  callbacks_.report_management(reports);
   return true;
 }
 

@@ -48,6 +48,7 @@ bool Ambassador::take_message(Reader& reader) {
   const auto name = static_cast<MessageKind>(kind);
   if (name == MessageKind::joined || name == MessageKind::refused) return take_membership(reader, kind);
   if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
+  if (name >= MessageKind::federation_report && name <= MessageKind::report_end) return take_report(reader, name);
   if (phase_ != Phase::joined) return false;
   switch (name) {
     case MessageKind::heartbeat: return true;
@@ -82,6 +83,7 @@ bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
   if (!exchange(reader, message)) return false;
   phase_ = Phase::joined;
   federate_ = {message.federate};
+  federates_.front().first = federate_;
   object_block_ = message.object_block;
   callbacks_.joined(federate_);
   return true;
@@ -91,11 +93,13 @@ bool Ambassador::take_federate(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
     FederateJoinedMessage message;
     if (!exchange(reader, message)) return false;
+    if (FederateHandle{message.federate} != federate_) federates_.emplace_back(FederateHandle{message.federate}, message.name);
     callbacks_.federate_joined({message.federate}, message.name, message.type);
     return true;
   }
   FederateResignedMessage message;
   if (!exchange(reader, message)) return false;
+  std::erase_if(federates_, [&](const auto& each) { return each.first.value == message.federate; });
   callbacks_.federate_resigned({message.federate}, message.name, message.type, static_cast<ResignReason>(message.reason));
   return true;
 }

@@ -1,6 +1,7 @@
 // What a host of transports talks to: the RTI's central component, whether it holds one federation execution or many.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 

@@ -11,6 +11,7 @@
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
+#include "rti/management/federation_report.h"
 #include "rti/membership.h"
 
 namespace rink::rti {
@@ -43,6 +44,8 @@ class FederateAmbassador {
   /// Federation management: what became of `create_federation_execution` and `destroy_federation_execution`; `HlaError::none` if it was done.
   virtual void federation_execution_created(std::string_view /*federation*/, HlaError) {}
   virtual void federation_execution_destroyed(std::string_view /*federation*/, HlaError) {}
+  /// Answers `query_management`.
+  virtual void report_management(const std::vector<FederationReport>&) {}
   /// Answers `list_federation_executions`.
   virtual void report_federation_executions(const std::vector<FederationExecutionInformation>&) {}
   virtual void synchronization_point_registration_succeeded(std::string_view /*label*/) {}

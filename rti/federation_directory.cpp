@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
 
 namespace rink::rti {
 
@@ -17,6 +18,7 @@ class FederationDirectory::Usher final : public Outlet {
     directory_.connections_[connection] = {};
     outlet_.drop(connection, why);
   }
+  std::size_t waiting_bytes(ConnectionId connection) const override { return outlet_.waiting_bytes(connection); }
 
  private:
   FederationDirectory& directory_;
@@ -42,7 +44,7 @@ HlaError FederationDirectory::create(std::string_view federation, std::uint64_t 
   if (model == models_.end()) return HlaError::could_not_open_fdd;
   FederationSettings settings = settings_.federation;
   settings.federation = federation;
-  executions_.push_back(std::make_unique<FederationExecution>(**model, settings));
+  executions_.push_back(std::make_unique<FederationExecution>(**model, settings, settings_.services));
   executions_.back()->advance_clock(now_);
   return HlaError::none;
 }
@@ -122,6 +124,7 @@ bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
         for (const FederationExecutionInformation& each : list()) answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
         answer(id, FederationExecutionMessage{1, {}, {}, 0});
         break;
+      case MessageKind::query_management: management_queries_.push_back(id); break;
       default: return false;
     }
   }
@@ -180,6 +183,22 @@ void FederationDirectory::match() {
   for (const auto& execution : executions_) execution->match();
 }
 
+/// One frame tells of every execution.
+void FederationDirectory::answer_queries(Outlet& outlet) {
+  if (management_queries_.empty()) return;
+  FrameWriter frame(frame_max_to_federate);
+  const auto append = [&frame](auto message) {
+    write(frame.begin_message(measure(message)), message);
+    frame.appended();
+  };
+  for (const auto& execution : executions_) for_each_message(execution->report(&outlet), append);
+  append(ReportEndMessage{});
+  const Bytes bytes = frame.bytes();
+  for (const ConnectionId id : management_queries_)
+    if (connections_[id].is_connected) outlet.send(id, std::span(&bytes, 1));
+  management_queries_.clear();
+}
+
 void FederationDirectory::flush(Outlet& outlet) {
   for (const Answer& each : answers_) {
     const Bytes bytes = each.bytes;
@@ -187,6 +206,7 @@ void FederationDirectory::flush(Outlet& outlet) {
     if (each.is_last) outlet.drop(each.connection, "it broke the protocol or was refused");
   }
   answers_.clear();
+  answer_queries(outlet);
   Usher usher(*this, outlet);
   for (const auto& execution : executions_) execution->flush(usher);
   for (const auto& execution : destroyed_) execution->flush(usher);

@@ -12,6 +12,7 @@ namespace rink::rti {
 
 struct DirectorySettings {
   FederationSettings federation;         ///< of every execution; the name is replaced
+  FederationServices services;           ///< likewise: its parts
   std::size_t execution_max = 64;        ///< that exist at once
 };
 
@@ -62,6 +63,7 @@ class FederationDirectory final : public CentralComponent {
   bool lead(ConnectionId id, Bytes frame);
   void refuse(ConnectionId id, Refusal refusal);
   void drop(ConnectionId id);
+  void answer_queries(Outlet& outlet);
   template <class Message>
   void answer(ConnectionId id, Message message);
 
@@ -70,6 +72,7 @@ class FederationDirectory final : public CentralComponent {
   std::vector<std::unique_ptr<FederationExecution>> executions_, destroyed_;
   std::vector<Connection> connections_;  ///< by id
   std::vector<Answer> answers_;
+  std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::uint64_t drops_ = 0;
   double now_ = 0.0;
 };

@@ -16,6 +16,7 @@
 #include "rti/wire/bytes.h"
 #include "rti/federation_services.h"
 #include "rti/fom/fom.h"
+#include "rti/management/federation_report.h"
 
 namespace rink::rti {
 
@@ -98,6 +99,8 @@ class FederationExecution final : public CentralComponent {
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   const FederationCounters& counters() const;
   const BaselineCounters& baseline_counters() const;
+  /// Worked out now, objects and scopes counted one by one; with the outlet's queues if there is one.
+  FederationReport report(const Outlet* outlet = nullptr) const;
   const im::Filter& filter() const;
   const DataDistribution& distribution() const;
 

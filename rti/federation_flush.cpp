@@ -95,6 +95,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   frame_stamp_.reset();
   is_keyframe_begun_ = false;
   pieces_.clear();
+  const std::uint64_t before = counters_.updates_sent;
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   write_scope_events(slot);
   const bool is_held = holds_back(slot, outlet);
@@ -104,6 +105,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
     write_fresh_states(slot);
     gather_runs(slot);
   }
+  federate.counts.reflections_received += counters_.updates_sent - before;
   scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
   federate.control.clear();
   federate.tail.clear();
@@ -279,6 +281,7 @@ void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet)
   std::memcpy(scratch_.data(), &length, sizeof length);
   federate.last_said = now_;
   counters_.bytes_sent += size;
+  federate.counts.bytes_received += size;
   ++counters_.frames_sent;
   outlet.send(federate.connection, gathered_);
 }

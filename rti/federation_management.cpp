@@ -92,6 +92,7 @@ void FederationExecution::Parts::send_answers(Outlet& outlet) {
     outlet.send(each.connection, std::span(&bytes, 1));
   }
   answers_.clear();
+  answer_queries(outlet);
 }
 
 /// A host of one execution makes no others and keeps the one it has.
@@ -114,6 +115,7 @@ Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, Mes
     case MessageKind::list_federation_executions:
       answer(connection, FederationExecutionMessage{0, settings_.federation, fom_.name(), static_cast<std::uint32_t>(federate_count_)});
       return answer(connection, FederationExecutionMessage{1, {}, {}, 0}), std::nullopt;
+    case MessageKind::query_management: return management_queries_.push_back(connection), std::nullopt;
     default: return Violation::wrong_phase;
   }
 }

@@ -37,6 +37,7 @@ class FederationExecution::Parts {
     std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
     Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
     double last_said = 0.0;
+    FederateCounts counts;       ///< what is counted as it happens; `report` adds the rest
   };
   enum class Phase : std::uint8_t { unknown, connected, joined };
   struct Connection {
@@ -80,6 +81,9 @@ class FederationExecution::Parts {
   template <class Message>
   void answer(ConnectionId connection, Message message);
   void send_answers(Outlet& outlet);
+  FederationReport report(const Outlet* outlet) const;
+  std::vector<std::uint32_t> count_owned() const;
+  void answer_queries(Outlet& outlet);
   Outcome register_point(Reader& reader, std::uint32_t slot);
   std::optional<SynchronizationFailure> find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
   Outcome achieve_point(Reader& reader, std::uint32_t slot);
@@ -113,6 +117,7 @@ class FederationExecution::Parts {
   // Regions (federation_regions.cpp).
   Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome create_or_delete_region(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome create_region(std::uint32_t slot, RegionHandle region, DimensionSet dimensions);
   Outcome create_region_over(std::uint32_t slot, Reader& reader);
   Outcome modify_regions(std::uint32_t slot, Reader& reader);
   Outcome modify_ranges(std::uint32_t slot, Reader& reader);
@@ -166,6 +171,7 @@ class FederationExecution::Parts {
   std::unordered_map<std::string, std::uint32_t> names_;
   std::vector<SynchronizationPoint> points_;
   std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
+  std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;

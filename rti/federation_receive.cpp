@@ -12,6 +12,7 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();
   connections_[id].has_spoken = true;
+  if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].counts.bytes_sent += bytes.size();
   // The reader leaves its connection meanwhile: dropping the connection must not pull it from under our feet.
   FrameReader reader = std::move(connections_[id].reader);
   Outcome outcome;
@@ -58,6 +59,7 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::register_synchronization_point: return register_point(reader, slot);
     case MessageKind::synchronization_point_achieved: return achieve_point(reader, slot);
     case MessageKind::watch_federates: return watch(federates_[slot]);
+    case MessageKind::query_management: return management_queries_.push_back(id), std::nullopt;
     case MessageKind::publish_object_class:
     case MessageKind::subscribe_object_class:
     case MessageKind::publish_interaction_class:
@@ -198,10 +200,12 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
   if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty()) return Violation::unknown_name;
   if (!federates_[slot].published[message.object_class].includes(attributes)) return Violation::undeclared;
   Outcome outcome;
+  const std::uint64_t before = counters_.updates_received;
   const bool is_read = read_records(reader, fom_.at(object_class), attributes, [&](std::uint32_t handle, Bytes values) {
     outcome = take_update(slot, message, {handle}, values);
     return !outcome;
   });
+  federates_[slot].counts.updates_sent += counters_.updates_received - before;
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
@@ -227,6 +231,7 @@ Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader&
 Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions) {
   if (!federates_[slot].published_interactions[message.interaction_class]) return Violation::undeclared;
   ++counters_.interactions_received;
+  ++federates_[slot].counts.interactions_sent;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;
   for (const std::uint32_t receiver : interaction_subscribers_[message.interaction_class]) {
@@ -235,6 +240,7 @@ Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, Inte
     say(federates_[receiver].tail, message);
     counters_.interaction_bytes_sent += measure(message);
     ++counters_.interactions_sent;
+    ++federates_[receiver].counts.interactions_received;
   }
   return std::nullopt;
 }

@@ -49,9 +49,10 @@ Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, 
   CreateRegionMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
-  if (kind == MessageKind::create_region) return interest_.create_region(slot, region, {}) ? Outcome() : Violation::unknown_name;
+  if (kind == MessageKind::create_region) return create_region(slot, region, {});
   if (!interest_.has_region(slot, region)) return Violation::unknown_name;
   interest_.delete_region(slot, region);
+  --federates_[slot].counts.regions;
   list_interaction_subscriber(slot);
   return std::nullopt;
 }
@@ -62,7 +63,12 @@ Outcome FederationExecution::Parts::create_region_over(std::uint32_t slot, Reade
   const DimensionSet dimensions{message.dimensions};
   const std::size_t count = fom_.dimensions().size();
   const DimensionSet all{count == dimension_max ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1};
-  if (!all.includes(dimensions) || !interest_.create_region(slot, {message.region}, dimensions)) return Violation::unknown_name;
+  return all.includes(dimensions) ? create_region(slot, {message.region}, dimensions) : Violation::unknown_name;
+}
+
+Outcome FederationExecution::Parts::create_region(std::uint32_t slot, RegionHandle region, DimensionSet dimensions) {
+  if (!interest_.create_region(slot, region, dimensions)) return Violation::unknown_name;
+  ++federates_[slot].counts.regions;
   return std::nullopt;
 }
 

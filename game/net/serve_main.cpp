@@ -9,11 +9,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "game/control/key_log.h"
 #include "game/control/match_records.h"
 #include "game/control/replay.h"
 #include "game/model/scene_file.h"
+#include "game/net/address.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/evidence.h"
@@ -22,6 +24,7 @@
 #include "game/net/scene_choice.h"
 #include "game/net/serve_options.h"
 #include "game/net/serve_report.h"
+#include "game/net/serve_status.h"
 #include "game/net/serving.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
@@ -276,7 +279,25 @@ game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene
   return log;
 }
 
+/// Asks a running server, once or again and again.
+game::ExitStatus show_status(const game::ServeOptions& options) {
+  const auto [address, port] = game::address_and_port("--status", options.status);
+  do {
+    const auto reports = game::ask_status(address, port, now_s);
+    if (!reports) {
+      spdlog::error("--status: nothing that speaks this version of the protocol answers at {}", options.status);
+      return game::ExitStatus::no_server;
+    }
+    std::fputs(game::status_table(*reports).c_str(), stdout);
+    std::fflush(stdout);
+    const double next_s = now_s() + options.every_s;
+    while (options.every_s > 0.0 && !game::is_interrupted && now_s() < next_s) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  } while (options.every_s > 0.0 && !game::is_interrupted);
+  return game::ExitStatus::ok;
+}
+
 game::ExitStatus serve(game::ServeOptions& options) {
+  if (!options.status.empty()) return show_status(options);
   std::string federation = "rink", fom_path = game::fom_file();
   if (!options.federation_file.empty()) {
     const rti::FederationFile file = rti::load_federation_file(options.federation_file);

@@ -13,11 +13,11 @@
 namespace rink::game {
 
 struct ServeOptions {
-  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, pace = "realtime", hosted;
+  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", hosted;
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
-  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0;
+  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
 };
 
 inline void add_options(CLI::App& app, ServeOptions& options) {
@@ -49,6 +49,8 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
   app.add_option("--record", options.record, "file for the key log of this run; folder for those of hosted matches, by default matches");
   app.add_option("--evidence", options.evidence, "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
+  app.add_option("--status", options.status, "ADDRESS:PORT of a running server: print what it says of its federations and federates, and end; nothing is served");
+  app.add_option("--every", options.every_s, "seconds after which --status prints again, until interrupted; 0: once")->check(number_from(0.0, 3600.0))->capture_default_str();
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 

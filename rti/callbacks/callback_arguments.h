@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -32,10 +33,22 @@ class ArgumentWriter {
   void put(std::string_view text) { put(std::span(text.data(), text.size())); }
   void put(const std::vector<FederationExecutionInformation>& executions) {
     put(executions.size());
-    for (const FederationExecutionInformation& each : executions) put(std::string_view(each.federation)), put(std::string_view(each.model)), put(each.federates);
+    for (const FederationExecutionInformation& each : executions) put_all(each.federation, each.model, each.federates);
+  }
+  void put(const std::vector<FederationReport>& reports) {
+    put(reports.size());
+    for (const FederationReport& report : reports) {
+      put_all(report.federation, report.model, report.filter, report.objects, report.drops, report.federates.size());
+      for (const FederateReport& each : report.federates) put_all(each.federate, each.name, each.type, each.counts);
+    }
   }
 
  private:
+  void put(const std::string& text) { put(std::string_view(text)); }
+  template <class... Values>
+  void put_all(const Values&... values) {
+    (put(values), ...);
+  }
   void append(const void* from, std::size_t size) {
     const std::size_t end = bytes_.size();
     bytes_.resize(end + (size + alignment - 1) / alignment * alignment);
@@ -73,12 +86,23 @@ class ArgumentReader {
   }
   std::vector<FederationExecutionInformation> take(std::type_identity<std::vector<FederationExecutionInformation>>*) {
     std::vector<FederationExecutionInformation> executions(take<std::size_t>());
-    for (FederationExecutionInformation& each : executions) {
-      each.federation = take<std::string_view>();
-      each.model = take<std::string_view>();
-      each.federates = take<std::uint32_t>();
-    }
+    for (FederationExecutionInformation& each : executions) take_all(each.federation, each.model, each.federates);
     return executions;
+  }
+  std::vector<FederationReport> take(std::type_identity<std::vector<FederationReport>>*) {
+    std::vector<FederationReport> reports(take<std::size_t>());
+    for (FederationReport& report : reports) {
+      std::size_t federates = 0;
+      take_all(report.federation, report.model, report.filter, report.objects, report.drops, federates);
+      report.federates.resize(federates);
+      for (FederateReport& each : report.federates) take_all(each.federate, each.name, each.type, each.counts);
+    }
+    return reports;
+  }
+  std::string take(std::type_identity<std::string>*) { return std::string(take<std::string_view>()); }
+  template <class... Values>
+  void take_all(Values&... values) {
+    ((values = take<Values>()), ...);
   }
   const std::byte* advance(std::size_t size) {
     const std::byte* here = at_;

@@ -40,6 +40,7 @@ class CallbackQueue final : public FederateAmbassador {
   // Federation management.
   void federation_execution_created(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_created>(federation, error); }
   void federation_execution_destroyed(std::string_view federation, HlaError error) override { put<&FederateAmbassador::federation_execution_destroyed>(federation, error); }
+  void report_management(const std::vector<FederationReport>& reports) override { put<&FederateAmbassador::report_management>(reports); }
   void report_federation_executions(const std::vector<FederationExecutionInformation>& executions) override {
     put<&FederateAmbassador::report_federation_executions>(executions);
   }

@@ -93,6 +93,35 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   std::filesystem::remove(report);
 }
 
+TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
+  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  ASSERT_TRUE(place) << server.last_words();
+  Process status(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--status", *place}, {});
+  for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
+  ASSERT_TRUE(status.ending());
+  EXPECT_EQ(status.ending()->exit_status, 0) << status.last_words();
+  EXPECT_THAT(status.line_after("federation rink: ").value_or(""), testing::AllOf(HasSubstr("filter grid"), HasSubstr("1 federates"), HasSubstr("connections dropped: none")));
+  EXPECT_TRUE(status.line_after("server ")) << "the server's own federate has a line";
+  server.stop(5s);
+  const Ended nobody = run("rink-serve", {"--status", *place});
+  EXPECT_EQ(nobody.status, 11);
+  EXPECT_THAT(nobody.words, HasSubstr("--status: nothing that speaks this version of the protocol answers at"));
+}
+
+TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
+  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  ASSERT_TRUE(place) << server.last_words();
+  Process status(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
+  for (int i = 0; i < 30 && !status.ending(); ++i) status.attend(20ms);
+  EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.last_words();
+  status.stop(5s);
+  EXPECT_EQ(status.ending()->exit_status, 0);
+}
+
 TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   for (const char* flag : {"--count", "--first", "--view", "--duration", "--warm-up", "--patience"}) {
     for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {

@@ -106,7 +106,7 @@ TEST(FederationDirectory, NamesInUseForeignModelsAndTooManyAreRefusedByTheirErro
   EXPECT_EQ(port.directory.create("south", harbour().hash() + 1), HlaError::could_not_open_fdd);
   EXPECT_EQ(port.directory.create("", harbour().hash()), HlaError::illegal_name);
   EXPECT_EQ(port.directory.destroy("south"), HlaError::federation_execution_does_not_exist);
-  FederationDirectory small(DirectorySettings{.federation = {}, .execution_max = 1});
+  FederationDirectory small(DirectorySettings{.federation = {}, .services = {}, .execution_max = 1});
   small.offer(harbour());
   EXPECT_EQ(small.create("one", harbour().hash()), HlaError::none);
   EXPECT_EQ(small.create("two", harbour().hash()), HlaError::rti_internal_error);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
@@ -95,6 +96,15 @@ TEST(Message, OfFederationManagementReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(FederationExecutionCreatedMessage{dice.text(), static_cast<std::uint8_t>(handles)});
     expect_round_trip(FederationExecutionMessage{0, dice.text(), dice.text(), dice.number<std::uint32_t>()});
     expect_round_trip(FederationExecutionMessage{1, {}, {}, 0});
+    FederationReportMessage report{dice.text(), dice.text(), dice.text(), dice.number<std::uint32_t>(), {}};
+    for (std::uint64_t& drops : report.drops) drops = dice.number<std::uint64_t>();
+    expect_round_trip(report);
+    FederateReportMessage federate{dice.number<std::uint32_t>(), dice.text(), dice.text(), {}};
+    federate.counts.updates_sent = dice.number<std::uint64_t>();
+    federate.counts.regions = dice.number<std::uint32_t>();
+    federate.counts.logical_time = 1e9 / (1.0 + static_cast<double>(federate.counts.regions));
+    federate.counts.is_time_constrained = 1;
+    expect_round_trip(federate);
   }
 }
 

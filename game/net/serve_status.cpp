@@ -1,0 +1,88 @@
+// rink serve --status.
+#include "game/net/serve_status.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "rti/ambassador.h"
+#include "rti/federation_execution.h"
+#include "rti/transport/federate_link.h"
+#include "rti/transport/tcp.h"
+
+namespace rink::game {
+
+namespace {
+
+struct Asker : rti::FederateAmbassador {
+  std::optional<std::vector<rti::FederationReport>> reports;
+  bool is_lost = false;
+  void report_management(const std::vector<rti::FederationReport>& all) override { reports = all; }
+  void connection_lost(std::string_view) override { is_lost = true; }
+};
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::string drops_of(const rti::FederationReport& report) {
+  std::string text;
+  for (std::size_t reason = 0; reason < rti::violation_count; ++reason)
+    if (report.drops[reason] > 0) text += line("%s%llu %s", text.empty() ? "" : ", ", static_cast<unsigned long long>(report.drops[reason]), to_string(static_cast<rti::Violation>(reason)));
+  return text.empty() ? "none" : text;
+}
+
+/// As many characters as fit a column; names come from strangers, so nothing that a terminal would obey.
+std::string shown(const std::string& name) {
+  std::string text = name;
+  for (char& letter : text)
+    if (static_cast<unsigned char>(letter) < 32 || letter == 127) letter = '?';
+  return text;
+}
+
+/// Regulating, constrained, both, or neither; with the logical time where it has one.
+std::string time_of(const rti::FederateCounts& counts) {
+  if (counts.is_time_regulating == 0 && counts.is_time_constrained == 0) return "-";
+  return line("%s%s %.6g+%.3g", counts.is_time_regulating != 0 ? "R" : "", counts.is_time_constrained != 0 ? "C" : "", counts.logical_time, counts.lookahead);
+}
+
+}  // namespace
+
+std::optional<std::vector<rti::FederationReport>> ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s) {
+  const rti::Fom no_model;
+  Asker asker;
+  rti::Ambassador ambassador(no_model, asker);
+  rti::TcpTransport tcp;
+  rti::FederateLink link(ambassador, tcp, tcp.connect(address, port));
+  rti::FederateLinks links;
+  links.add(link);
+  ambassador.query_management();
+  const double give_up_s = now_s() + patience_s;
+  while (!asker.reports && !asker.is_lost && !link.is_finished() && now_s() < give_up_s) {
+    links.flush(now_s());
+    tcp.poll(std::chrono::milliseconds(20), links);
+  }
+  return asker.reports;
+}
+
+std::string status_table(const std::vector<rti::FederationReport>& reports) {
+  std::string text = reports.empty() ? "no federation execution\n" : "";
+  for (const rti::FederationReport& report : reports) {
+    text += line("federation %s: object model %s, filter %s, %zu federates, %u objects; connections dropped: %s\n", shown(report.federation).c_str(), shown(report.model).c_str(), shown(report.filter).c_str(),
+                 report.federates.size(), report.objects, drops_of(report).c_str());
+    text += line("%-20.20s %-10.10s %7s %8s %7s %10s %10s %8s %8s %9s %9s %7s %7s %s\n", "federate", "type", "owned", "in scope", "regions", "updates", "reflected", "int sent", "int recv", "kB sent", "kB recv",
+                 "queued", "silent", "time");
+    for (const rti::FederateReport& each : report.federates) {
+      const rti::FederateCounts& counts = each.counts;
+      const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+      text += line("%-20.20s %-10.10s %7u %8u %7u %10llu %10llu %8llu %8llu %9.1f %9.1f %7llu %6.1fs %s\n", shown(each.name).c_str(), shown(each.type).c_str(), counts.objects_owned, counts.objects_in_scope, counts.regions,
+                   number(counts.updates_sent), number(counts.reflections_received), number(counts.interactions_sent), number(counts.interactions_received),
+                   1e-3 * static_cast<double>(counts.bytes_sent), 1e-3 * static_cast<double>(counts.bytes_received), number(counts.queue_bytes), counts.silence_s, time_of(counts).c_str());
+    }
+  }
+  return text;
+}
+
+}  // namespace rink::game

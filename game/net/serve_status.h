@@ -1,0 +1,20 @@
+// What a running server says of its federations: the question, and the table that a user reads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rti/management/federation_report.h"
+
+namespace rink::game {
+
+/// Asks by a connection of its own, without joining, so any object model will do. Nothing if there is no answer within `patience_s` [s] of `now_s`.
+std::optional<std::vector<rti::FederationReport>> ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s = 3.0);
+
+/// A paragraph for each federation, a line for each of its federates.
+std::string status_table(const std::vector<rti::FederationReport>& reports);
+
+}  // namespace rink::game
