@@ -127,6 +127,7 @@ void Ambassador::advance_clock(double now) {
   if (has_heard_) last_heard_ = now;
   if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
   has_heard_ = has_said_ = false;
+  if (!postponed_.empty()) release_postponed();
   if (phase_ != Phase::joined && phase_ != Phase::joining) return;
   if (now - last_heard_ > patience_.lost_after_s) return lose("the RTI has been silent for too long");
   if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
@@ -143,7 +144,7 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 }
 
 std::size_t Ambassador::memory_bytes() const {
-  const std::size_t waiting = held_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
+  const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
   return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes();
 }

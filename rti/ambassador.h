@@ -19,6 +19,7 @@
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
 #include "rti/objects/object_map.h"
+#include "rti/time/federate_clock.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
@@ -39,6 +40,7 @@ struct AmbassadorCounters {
   std::uint64_t objects_discovered = 0, objects_removed = 0;
   std::uint64_t scope_changes = 0;
   std::uint64_t keyframes_acknowledged = 0, differences_refused = 0;  ///< of periodic state (docs/wire.md, "Baselines")
+  std::uint64_t timed_sent = 0, timed_received = 0, time_advance_grants = 0;  ///< messages sent in time-stamp order; time management
 };
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
@@ -156,6 +158,36 @@ class Ambassador {
   void enable_callbacks();
   static constexpr std::size_t waiting_callbacks_max = 64u << 20;
 
+  /// Time management: docs/rti.md. Every federate begins at logical time 0, neither regulating nor constrained. Refused by the errors that `FederateClock` names.
+  void enable_time_regulation(double lookahead);
+  void disable_time_regulation();
+  void enable_time_constrained();
+  void disable_time_constrained();
+  void time_advance_request(LogicalTime time) { request_advance(AdvanceKind::time_advance, time); }
+  void time_advance_request_available(LogicalTime time) { request_advance(AdvanceKind::time_advance_available, time); }
+  void next_message_request(LogicalTime time) { request_advance(AdvanceKind::next_message, time); }
+  void next_message_request_available(LogicalTime time) { request_advance(AdvanceKind::next_message_available, time); }
+  void flush_queue_request(LogicalTime time) { request_advance(AdvanceKind::flush_queue, time); }
+  void modify_lookahead(double lookahead);
+  /// While granted, a constrained federate gets messages in receive order only if this is on; else they wait for its next request.
+  void enable_asynchronous_delivery() { clock_.ask_asynchronous(true); }
+  void disable_asynchronous_delivery() { clock_.ask_asynchronous(false); }
+  LogicalTime query_logical_time() const { return LogicalTime(clock_.time()); }
+  double query_lookahead() const { return clock_.lookahead(); }
+  /// Asks the RTI for GALT and LITS; `time_bounds` answers.
+  void query_time_bounds();
+  const FederateClock& clock() const { return clock_; }
+  /// The same as the services without a time, but in time-stamp order where that is what the object model or `change_..._order_type` says and the federate regulates: only then
+  /// is there a handle. What of an update goes in receive order goes at once, stamped with that time.
+  RetractionHandle update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle send_interaction(InteractionClassHandle interaction_class, Bytes parameters, LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, LogicalTime time, std::uint64_t tag = 0);
+  RetractionHandle delete_object_instance(ObjectHandle object, LogicalTime time, std::uint64_t tag = 0);
+  /// Takes back what was sent in time-stamp order. A deletion that is taken back gives the object back.
+  void retract(const RetractionHandle& handle);
+  void change_attribute_order_type(ObjectHandle object, AttributeSet attributes, Order order);
+  void change_interaction_order_type(InteractionClassHandle interaction_class, Order order);
+
   /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has explained: close the connection.
   bool receive(Bytes bytes);
   /// What must go to the RTI, and that it has gone.
@@ -222,6 +254,15 @@ class Ambassador {
   bool take_bytes(Bytes bytes);
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
+  // Time management (ambassador_time.cpp).
+  void request_advance(AdvanceKind kind, LogicalTime time);
+  AttributeSet timestamped(ObjectHandle object, ObjectClassHandle object_class) const;
+  RetractionHandle say_timed(LogicalTime time, std::uint64_t tag, Bytes content);
+  bool take_time(Reader& reader, std::uint8_t kind);
+  bool take_timed(Reader& reader);
+  bool postpone(Reader& reader, MessageKind kind);
+  bool release_postponed();
+
   const Fom& fom_;
   std::unique_ptr<CallbackQueue> queue_;  ///< null in the immediate model, which pays nothing for it
   FederateAmbassador& callbacks_;         ///< the federate, or the queue before it
@@ -260,6 +301,19 @@ class Ambassador {
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
   bool has_clock_ = false, has_said_ = false, has_heard_ = false;
   AmbassadorCounters counters_;
+
+  FederateClock clock_;
+  const TimedStamp* timed_ = nullptr;     ///< of the message being read, if it was sent in time-stamp order
+  std::vector<std::byte> postponed_, content_; ///< messages in receive order that wait for the next request; the message inside one that goes in time-stamp order
+  std::vector<std::pair<std::uint32_t, AttributeSet>> order_changes_;  ///< objects whose attributes go in another order than the model says: those in time-stamp order
+  std::vector<Order> interaction_orders_;                              ///< by class, once one differs from the model
+  struct Deletion {
+    std::uint64_t number = 0;
+    std::uint32_t object = 0;
+    KnownObject known;
+    double time = 0.0;
+  };
+  std::vector<Deletion> deletions_;       ///< in time-stamp order, as long as they can be taken back
 };
 
 template <class Message>

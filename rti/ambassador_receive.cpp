@@ -3,6 +3,7 @@
 
 #include "rti/ambassador.h"
 #include "rti/wire/message.h"
+#include "rti/wire/time_messages.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {
@@ -34,6 +35,7 @@ void Ambassador::lose(std::string_view why) {
 
 bool Ambassador::take_frame(Bytes frame) {
   ++counters_.frames_received;
+  if (!postponed_.empty() && !release_postponed()) return false;
   heard_stamp_.reset();
   Reader reader(frame);
   while (!reader.is_at_end() && phase_ != Phase::ended)
@@ -46,6 +48,7 @@ bool Ambassador::take_message(Reader& reader) {
   std::uint8_t kind = 0;
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
+  if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name)) return postpone(reader, name);
   if (name == MessageKind::joined || name == MessageKind::refused) return take_membership(reader, kind);
   if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
   if (name >= MessageKind::federation_report && name <= MessageKind::report_end) return take_report(reader, name);
@@ -66,6 +69,12 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::begin_keyframe: return take_keyframe(reader);
     case MessageKind::deltas: return take_deltas(reader);
     case MessageKind::interaction: return take_interaction(reader);
+    case MessageKind::time_regulation_enabled:
+    case MessageKind::time_constrained_enabled:
+    case MessageKind::time_advance_grant:
+    case MessageKind::timed_delivery:
+    case MessageKind::request_retraction:
+    case MessageKind::time_bounds: return take_time(reader, kind);
     default: return false;
   }
 }
@@ -112,7 +121,8 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
     if (known == nullptr || known->is_own) return false;
     known_.erase({message.object});
     ++counters_.objects_removed;
-    callbacks_.remove_object_instance({message.object});
+    if (timed_ != nullptr) callbacks_.remove_object_instance_with_time({message.object}, *timed_);
+    else callbacks_.remove_object_instance({message.object});
     return true;
   }
   DiscoverObjectMessage message;
@@ -158,7 +168,8 @@ bool Ambassador::take_updates(Reader& reader) {
       values = decoded_;
     }
     ++counters_.updates_reflected;
-    callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
+    if (timed_ != nullptr) callbacks_.reflect_attribute_values_with_time({object}, attributes, values, *timed_);
+    else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
     return phase_ == Phase::joined;
   });
   return is_read || phase_ != Phase::joined;
@@ -168,7 +179,8 @@ bool Ambassador::take_interaction(Reader& reader) {
   InteractionMessage message;
   if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size()) return false;
   ++counters_.interactions_received;
-  callbacks_.receive_interaction({message.interaction_class}, message.parameters, {message.federate}, message.stamp);
+  if (timed_ != nullptr) callbacks_.receive_interaction_with_time({message.interaction_class}, message.parameters, {message.federate}, *timed_);
+  else callbacks_.receive_interaction({message.interaction_class}, message.parameters, {message.federate}, message.stamp);
   return true;
 }
 

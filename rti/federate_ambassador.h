@@ -13,6 +13,7 @@
 #include "rti/hla_error.h"
 #include "rti/management/federation_report.h"
 #include "rti/membership.h"
+#include "rti/time/logical_time.h"
 
 namespace rink::rti {
 
@@ -28,6 +29,13 @@ struct FederationExecutionInformation {
   std::string federation, model;  ///< its name and that of its object model
   std::uint32_t federates = 0;    ///< joined now
   friend bool operator==(const FederationExecutionInformation&, const FederationExecutionInformation&) = default;
+};
+
+/// What comes with a message that was sent in time-stamp order.
+struct TimedStamp {
+  Stamp stamp;
+  bool is_in_order = false;  ///< received in time-stamp order too; else its receiver was not constrained, and it came as soon as it could
+  RetractionHandle handle;   ///< what `request_retraction` will name
 };
 
 /// All bodies are empty: override what matters. Views handed in are valid during the call. Callbacks may call any service of the ambassador
@@ -67,6 +75,23 @@ class FederateAmbassador {
   virtual void remove_object_instance(ObjectHandle) {}
 
   virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/, FederateHandle /*sender*/, const Stamp&) {}
+
+  /// Time management. Grants and what is enabled come once for each service that asked; all messages that belong to a grant come before it.
+  virtual void time_regulation_enabled(LogicalTime) {}
+  virtual void time_constrained_enabled(LogicalTime) {}
+  virtual void time_advance_grant(LogicalTime) {}
+  /// The sender takes back what we have received already.
+  virtual void request_retraction(const RetractionHandle&) {}
+  /// The answer to `query_time_bounds`: GALT and LITS [s], infinite where nobody sets a bound.
+  virtual void time_bounds(double /*galt*/, double /*lits*/) {}
+  /// What was sent in time-stamp order. Who does not tell it apart gets it as any other.
+  virtual void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes, Bytes values, const TimedStamp& timed) {
+    reflect_attribute_values(object, attributes, values, timed.stamp);
+  }
+  virtual void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const TimedStamp& timed) {
+    receive_interaction(interaction_class, parameters, sender, timed.stamp);
+  }
+  virtual void remove_object_instance_with_time(ObjectHandle object, const TimedStamp&) { remove_object_instance(object); }
 };
 
 }  // namespace rink::rti

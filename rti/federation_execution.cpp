@@ -18,6 +18,7 @@ const char* to_string(Violation violation) {
     case Violation::over_limit: return "over limit";
     case Violation::silent: return "silent";
     case Violation::refused: return "refused";
+    case Violation::untimely: return "untimely";
   }
   return "unknown violation";
 }
@@ -49,7 +50,10 @@ void FederationExecution::match() {
   parts_->counters_.scope_exits = parts_->interest_.counters().exits;
 }
 
-void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
+void FederationExecution::flush(Outlet& outlet) {
+  parts_->settle_time();
+  parts_->flush(outlet);
+}
 const std::string& FederationExecution::name() const { return parts_->settings_.federation; }
 const Fom& FederationExecution::fom() const { return parts_->fom_; }
 std::size_t FederationExecution::federate_count() const { return parts_->federate_count_; }

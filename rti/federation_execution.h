@@ -31,8 +31,9 @@ enum class Violation : std::uint8_t {
   over_limit,     ///< more objects or regions than allowed
   silent,         ///< nothing heard for too long
   refused,        ///< its join was refused
+  untimely,       ///< a time stamp, lookahead or request that its logical time forbids
 };
-inline constexpr std::size_t violation_count = 9;
+inline constexpr std::size_t violation_count = 10;
 const char* to_string(Violation violation);
 
 struct FederationSettings {
@@ -42,6 +43,7 @@ struct FederationSettings {
   std::uint32_t federate_max = 16'000;      ///< joined at once; below `object_block_max`
   std::uint32_t object_max = 1u << 20;      ///< registered at once
   std::uint32_t objects_per_federate_max = object_block;
+  std::uint32_t timed_max = 1u << 20;       ///< messages in time-stamp order that wait for somebody, or can still be taken back
   Patience patience;
   std::uint32_t keyframe_period = 2;        ///< every so many flushes with periodic state are a keyframe (docs/wire.md, "Baselines")
 };
@@ -57,6 +59,7 @@ struct FederationCounters {
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
   std::uint64_t joins = 0, resigns = 0;
+  std::uint64_t timed_received = 0, timed_sent = 0, time_advance_grants = 0, retractions = 0;  ///< messages in time-stamp order; time management
   std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`
 };
 

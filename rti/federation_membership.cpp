@@ -4,6 +4,7 @@
 #include "rti/buffering/newest_state.h"
 #include "rti/distribution/interest.h"
 #include "rti/federation_parts.h"
+#include "rti/federation_time.h"
 
 namespace rink::rti {
 
@@ -25,6 +26,7 @@ std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
 FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter)
     : fom_(fom),
       settings_(settings),
+      make_time_management_(services.time_management),
       objects_(fom),
       ownership_(fom, objects_),
       distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
@@ -143,6 +145,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
       say(other.tail, FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
   --federate_count_;
   ++counters_.resigns;
+  leave_time(slot);
   federate = {};
   free_federates_.push_back(slot);
 }

@@ -21,6 +21,7 @@ namespace rink::rti {
 class FederationExecution::Parts {
  public:
   Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter);
+  ~Parts();
 
   /// A joined federate. Vectors by class are of fixed size.
   struct Federate {
@@ -140,6 +141,12 @@ class FederationExecution::Parts {
   void write_stamp(const Stamp& stamp);
   void send_pieces(Federate& federate, Outlet& outlet);
 
+  // Time management (federation_time.h). Nothing is kept, and nothing done, before the first message of that kind.
+  class Time;
+  Outcome take_time(std::uint32_t slot, MessageKind kind, Reader& reader);
+  void settle_time();
+  void leave_time(std::uint32_t slot);
+
   template <class Message>
   static void say(std::vector<std::byte>& bytes, Message message) {
     write(bytes, message);
@@ -154,6 +161,7 @@ class FederationExecution::Parts {
 
   const Fom& fom_;
   FederationSettings settings_;
+  std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
   ObjectTable objects_;
   Ownership ownership_;
   std::unique_ptr<DataDistribution> distribution_;
@@ -175,6 +183,7 @@ class FederationExecution::Parts {
   std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;
+  std::unique_ptr<Time> time_;
   double now_ = 0.0;
 
   /// A part of the message to one destination: a stretch of `scratch_`, or of somebody's bytes.

@@ -81,6 +81,13 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::interaction: return take_object(slot, kind, reader);
     case MessageKind::acknowledge_keyframe:
     case MessageKind::refuse_keyframe: return take_keyframe(slot, kind, reader);
+    case MessageKind::enable_time_regulation:
+    case MessageKind::time_switch:
+    case MessageKind::modify_lookahead:
+    case MessageKind::advance_request:
+    case MessageKind::timed_send:
+    case MessageKind::retract:
+    case MessageKind::query_time_bounds: return take_time(slot, kind, reader);
     default: return Violation::malformed;
   }
 }

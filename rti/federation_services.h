@@ -8,16 +8,20 @@
 #include "rti/buffering/buffering.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/ownership/ownership.h"
+#include "rti/time/time_management.h"
 
 namespace rink::rti {
 
-/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the execution's constructor, and what it is handed outlives what it makes.
+/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the execution's constructor if nothing else is said, and what it is handed outlives what it makes.
 struct FederationServices {
   /// Who hears of what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)> data_distribution;
 
   /// How updates are collected, and who is told the newest state instead (rti/buffering/newest_state.h).
   std::function<std::unique_ptr<Buffering>()> buffering;
+
+  /// When who may advance. Made when the first federate asks for it, so a federation without has none.
+  std::function<std::unique_ptr<TimeManagement>()> time_management;
 };
 
 }  // namespace rink::rti

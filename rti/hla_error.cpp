@@ -61,6 +61,8 @@ const char* to_string(HlaError error) {
     case HlaError::call_not_allowed_from_within_callback: return "CallNotAllowedFromWithinCallback";
     case HlaError::unauthorized: return "Unauthorized";
     case HlaError::rti_internal_error: return "RTIinternalError";
+    case HlaError::asynchronous_delivery_already_enabled: return "AsynchronousDeliveryAlreadyEnabled";
+    case HlaError::asynchronous_delivery_already_disabled: return "AsynchronousDeliveryAlreadyDisabled";
   }
   return "unknown error";
 }

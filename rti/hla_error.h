@@ -66,6 +66,8 @@ enum class HlaError : std::uint8_t {
   call_not_allowed_from_within_callback,
   unauthorized,
   rti_internal_error,
+  asynchronous_delivery_already_enabled,
+  asynchronous_delivery_already_disabled,
 };
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);

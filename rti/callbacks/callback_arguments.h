@@ -1,6 +1,8 @@
 // How the arguments of a callback are kept in a buffer of bytes and found again.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstring>
@@ -71,9 +73,9 @@ class ArgumentReader {
   template <class Value>
   Value take(std::type_identity<Value>*) {
     static_assert(std::is_trivially_copyable_v<Value>);
-    Value value;
-    std::memcpy(static_cast<void*>(&value), advance(sizeof value), sizeof value);
-    return value;
+    std::array<std::byte, sizeof(Value)> bytes;  // a value may have no default
+    std::memcpy(bytes.data(), advance(sizeof bytes), sizeof bytes);
+    return std::bit_cast<Value>(bytes);
   }
   template <class Value>
   std::span<const Value> take(std::type_identity<std::span<const Value>>*) {

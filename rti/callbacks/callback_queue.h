@@ -69,6 +69,20 @@ class CallbackQueue final : public FederateAmbassador {
     put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);
   }
 
+  // Time management.
+  void time_regulation_enabled(LogicalTime time) override { put<&FederateAmbassador::time_regulation_enabled>(time); }
+  void time_constrained_enabled(LogicalTime time) override { put<&FederateAmbassador::time_constrained_enabled>(time); }
+  void time_advance_grant(LogicalTime time) override { put<&FederateAmbassador::time_advance_grant>(time); }
+  void request_retraction(const RetractionHandle& handle) override { put<&FederateAmbassador::request_retraction>(handle); }
+  void time_bounds(double galt, double lits) override { put<&FederateAmbassador::time_bounds>(galt, lits); }
+  void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes, Bytes values, const TimedStamp& timed) override {
+    put<&FederateAmbassador::reflect_attribute_values_with_time>(object, attributes, values, timed);
+  }
+  void receive_interaction_with_time(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const TimedStamp& timed) override {
+    put<&FederateAmbassador::receive_interaction_with_time>(interaction_class, parameters, sender, timed);
+  }
+  void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override { put<&FederateAmbassador::remove_object_instance_with_time>(object, timed); }
+
  private:
   /// A record: this, then the arguments, each at a multiple of `alignment`.
   struct Header {

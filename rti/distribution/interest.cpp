@@ -184,7 +184,7 @@ AttributeSet Interest::covered(const Regional& regional, ObjectSlot object, Attr
 
 AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
   const Object& object = objects_[slot];
-  if (!object.is_alive || object.owner == interest.federate) return {};
+  if (!object.is_alive || object.is_leaving || object.owner == interest.federate) return {};
   AttributeSet set = interest.everywhere.expanded[object.object_class];
   const Use& used = uses_[slot];
   for (const Regional& each : interest.regionals) {

@@ -23,6 +23,7 @@ struct Object {
   std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
+  bool is_leaving = false;           ///< deleted at a logical time that some have not reached: nobody discovers it any more
   AttributeSet valued;               ///< attributes that have a value
   std::string name;
   std::vector<std::byte> fixed;      ///< coded values of fixed size, at the class's offsets
