@@ -20,8 +20,11 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
+/// Nothing is said but when to go on.
 const Fom& empty_model() {
-  static const Fom fom = Fom::parse("<objectModel></objectModel>", "bench");
+  static const Fom fom = Fom::parse("<objectModel><objects><objectClass><name>Root</name></objectClass></objects>"
+                                    "<interactions><interactionClass><name>Root</name></interactionClass></interactions></objectModel>",
+                                    "bench");
   return fom;
 }
 

@@ -1,4 +1,4 @@
-// Federates whose clock is off, at their own end and as bytes that break the rules.
+// Federates whose clock is off, at their own end and as bytes that break the rules; and what time management costs.
 #include "rti/wire/time_messages.h"
 #include "tests/rti/relaxed_time.h"
 #include "tests/rti/timed_federation.h"
@@ -49,6 +49,32 @@ TEST(BadClock, ARequestThatItsTimeForbidsCostsTheConnection) {
   TimedFederate& second = federation.join_timed(1.0, false);
   send_raw(federation, second, EnableTimeRegulationMessage{1.0});
   EXPECT_EQ(federation.drops(Violation::untimely), 2u);
+}
+
+TEST(TimeCosts, AFederationWithoutTimeManagementHasNone) {
+  int made = 0;
+  FederationServices services;
+  services.time_management = [&made] { return ++made, std::make_unique<ConservativeTime>(); };
+  TimedFederation federation(services);
+  TimedFederate& sender = federation.join();
+  TimedFederate& receiver = federation.join();
+  sender.ambassador.send_interaction(hail, bytes_of("now"), Stamp{});
+  EXPECT_FALSE(TimedFederation::say(sender, 3.0, "who does not regulate sends as ever"));
+  federation.carry();
+  EXPECT_EQ(receiver.heard.size(), 2u);
+  EXPECT_EQ(federation.execution().counters().timed_received, 0u);
+  EXPECT_EQ(made, 0) << "nothing was made, so a flush had nothing to ask";
+  sender.ambassador.enable_time_regulation(1.0);
+  federation.carry();
+  EXPECT_EQ(made, 1);
+}
+
+/// A stamp costs what it did; a request and its grant are this long.
+TEST(TimeCosts, AStepOfAFederateCostsTwentySevenBytes) {
+  AdvanceRequestMessage request;
+  TimeAdvanceGrantMessage grant;
+  EXPECT_EQ(frame_header_size + measure(request), 14u);
+  EXPECT_EQ(frame_header_size + measure(grant), 13u);
 }
 
 }  // namespace
