@@ -132,7 +132,7 @@ Outcome FederationExecution::Parts::Time::read_update(std::uint32_t slot, Reader
   if (!is_read || records != 1) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({message.object});
   if (object == no_object || parts_.objects_[object].object_class != header.object_class) return Violation::unknown_name;
-  if (parts_.objects_[object].owner != slot) return Violation::not_owned;
+  if (!parts_.ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   message.class_number = header.object_class;
   message.attributes = attributes;
   return std::nullopt;
@@ -154,7 +154,7 @@ Outcome FederationExecution::Parts::Time::read_deletion(std::uint32_t slot, Read
   if (!exchange(content, wire)) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({wire.object});
   if (object == no_object || parts_.objects_[object].is_leaving) return Violation::unknown_name;
-  if (parts_.objects_[object].owner != slot) return Violation::not_owned;
+  if (!parts_.ownership_.owned_by(slot, object).contains(privilege_to_delete_object)) return Violation::not_owned;
   parts_.objects_[object].is_leaving = true;
   message.object = wire.object;
   return std::nullopt;

@@ -1,6 +1,8 @@
 // What a federation execution keeps of time management, once somebody asked for it; for its own sources only.
 #pragma once
 
+#include <unordered_map>
+
 #include "rti/federation_parts.h"
 #include "rti/wire/time_messages.h"
 
@@ -69,6 +71,7 @@ class FederationExecution::Parts::Time final : public TimeListener {
   void write_content(const Message& message, AttributeSet told);
   void finish(std::uint32_t index);
   void complete(const Message& message);
+  bool is_news(const Message& message);
   void release(std::uint32_t index);
   bool is_here(FederateHandle federate) const;
 
@@ -86,6 +89,7 @@ class FederationExecution::Parts::Time final : public TimeListener {
   std::vector<std::uint32_t> arrived_;          ///< messages to distribute
   std::vector<std::uint32_t> asking_;           ///< slots that asked for their bounds
   std::vector<std::byte> content_;
+  std::unordered_map<std::uint32_t, double> told_until_;  ///< by object: time stamp of the latest update that is its state for newcomers
 };
 
 }  // namespace rink::rti

@@ -119,12 +119,26 @@ void FederationExecution::Parts::Time::discard(std::uint32_t, const TimedEntry& 
 void FederationExecution::Parts::Time::complete(const Message& message) {
   const ObjectSlot slot = message.kind == MessageKind::interaction ? no_object : parts_.objects_.find({message.object});
   if (slot == no_object) return;
-  Object& object = parts_.objects_[slot];
-  if (message.kind == MessageKind::delete_object) return parts_.delete_object(slot);
+  if (message.kind == MessageKind::delete_object) {
+    told_until_.erase(message.object);
+    return parts_.delete_object(slot);
+  }
+  if (!is_news(message)) return;
   parts_.objects_.store(slot, message.attributes, message.body);
+  const Object& object = parts_.objects_[slot];
   if (object.owner == no_federate) return;
   Stamp& newest = parts_.federates_[object.owner].newest;
   if (newest.time < message.stamp.time) newest = message.stamp;
+}
+
+/// False for an update that is completed after a later one of its object, which had fewer to wait for.
+bool FederationExecution::Parts::Time::is_news(const Message& message) {
+  if (told_until_.size() > 64 + 2 * parts_.objects_.size())
+    std::erase_if(told_until_, [this](const auto& each) { return parts_.objects_.find({each.first}) == no_object; });
+  double& until = told_until_.try_emplace(message.object, message.stamp.time).first->second;
+  if (message.stamp.time < until) return false;
+  until = message.stamp.time;
+  return true;
 }
 
 /// Frees the message's place once nobody can ask for it.

@@ -1,0 +1,84 @@
+// What newcomers are told of objects whose updates go in time-stamp order.
+#include "tests/rti/relaxed_time.h"
+#include "tests/rti/timed_federation.h"
+
+namespace rink::rti {
+namespace {
+
+using namespace testing;
+using What = TimedFederate::Heard::What;
+
+class TimedState : public ::testing::Test {
+ protected:
+  TimedState() {
+    owner.ambassador.publish_object_class_attributes(ferry, harbour().attributes(ferry));
+    receiver.ambassador.subscribe_object_class_attributes(ferry, {destination});
+    object = owner.ambassador.register_object_instance(ferry, "Elba");
+    federation.carry();
+  }
+  void sail(const std::string& port, double time) {
+    owner.ambassador.update_attribute_values(object, {destination}, varying(port), LogicalTime(time));
+    federation.carry();
+  }
+  /// What one who joins now is told first; "" for nothing.
+  std::string told_to_a_newcomer() {
+    TimedFederate& newcomer = federation.join();
+    newcomer.ambassador.subscribe_object_class_attributes(ferry, {destination});
+    federation.carry();
+    return newcomer.heard.empty() ? "" : newcomer.heard.back().text.substr(4);
+  }
+  void advance_both(double time) {
+    owner.ambassador.time_advance_request(LogicalTime(time));
+    receiver.ambassador.time_advance_request(LogicalTime(time));
+    federation.carry();
+  }
+  TimedFederation federation{relaxed()};
+  TimedFederate& owner = federation.join_timed(1.0);
+  TimedFederate& receiver = federation.join_timed(-1.0);
+  ObjectHandle object;
+};
+
+TEST_F(TimedState, ANewcomerIsNotToldWhatIsStillToCome) {
+  sail("Piombino", 2.0);
+  sail("Bastia", 6.0);
+  EXPECT_EQ(told_to_a_newcomer(), "");
+  advance_both(4.0);
+  EXPECT_EQ(receiver.times(What::message), std::vector{2.0});
+  EXPECT_EQ(told_to_a_newcomer(), "Piombino");
+  advance_both(9.0);
+  EXPECT_EQ(told_to_a_newcomer(), "Bastia");
+}
+
+TEST_F(TimedState, AnEarlierUpdateThatHadToWaitDoesNotReplaceALaterOne) {
+  sail("Piombino", 2.0);
+  receiver.ambassador.unsubscribe_object_class(ferry);
+  federation.carry();
+  sail("Bastia", 6.0);  // nobody has to wait for it
+  EXPECT_EQ(told_to_a_newcomer(), "Bastia");
+  advance_both(9.0);
+  EXPECT_EQ(told_to_a_newcomer(), "Bastia");
+}
+
+TEST_F(TimedState, AnUpdateIsDroppedForThoseForWhomTheObjectIsGone) {
+  sail("Piombino", 2.0);
+  owner.ambassador.delete_object_instance(object);
+  federation.carry();
+  advance_both(3.0);
+  EXPECT_TRUE(receiver.times(What::message).empty());
+  EXPECT_EQ(receiver.times(What::removal), std::vector{-1.0}) << "in receive order, while it advanced";
+}
+
+TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
+  owner.ambassador.change_attribute_order_type(object, {speed}, Order::timestamp);
+  std::vector<std::byte> values = values_of(2.5f);
+  const std::vector<std::byte> port = varying("Bastia");
+  values.insert(values.end(), port.begin(), port.end());
+  owner.ambassador.update_attribute_values(object, {speed, destination}, values, LogicalTime(2.0));
+  federation.carry();
+  advance_both(3.0);
+  ASSERT_EQ(receiver.times(What::message), std::vector{2.0});
+  EXPECT_EQ(receiver.heard[receiver.heard.size() - 2].text, text_of(port));
+}
+
+}  // namespace
+}  // namespace rink::rti
