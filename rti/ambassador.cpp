@@ -15,7 +15,8 @@ Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Pati
       callbacks_(queue_ ? *queue_ : callbacks),
       patience_(patience),
       regions_(fom),
-      outgoing_(frame_max_to_rti) {}
+      outgoing_(frame_max_to_rti),
+      arrivals_(fom) {}
 
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
   assert(fom_.attributes(object_class).includes(attributes));
@@ -129,6 +130,7 @@ void Ambassador::advance_clock(double now) {
   has_heard_ = has_said_ = false;
   if (!postponed_.empty()) release_postponed();
   if (phase_ != Phase::joined && phase_ != Phase::joining) return;
+  if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s) acknowledge_datagrams();
   if (now - last_heard_ > patience_.lost_after_s) return lose("the RTI has been silent for too long");
   if (phase_ == Phase::joined && now - last_said_ >= patience_.heartbeat_s) {
     say(HeartbeatMessage{});
@@ -146,7 +148,7 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
   return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes();
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes();
 }
 
 }  // namespace rink::rti

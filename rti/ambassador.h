@@ -18,6 +18,7 @@
 #include "rti/fom/fom.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
+#include "rti/objects/arrival_order.h"
 #include "rti/objects/object_map.h"
 #include "rti/time/federate_clock.h"
 #include "rti/wire/stream.h"
@@ -41,6 +42,9 @@ struct AmbassadorCounters {
   std::uint64_t scope_changes = 0;
   std::uint64_t keyframes_acknowledged = 0, differences_refused = 0;  ///< of periodic state (docs/wire.md, "Baselines")
   std::uint64_t timed_sent = 0, timed_received = 0, time_advance_grants = 0;  ///< messages sent in time-stamp order; time management
+  /// Of datagrams: that were applied; that were ignored, for they had come before or made no sense; updates in them that were older than what is known, or of
+  /// objects out of scope.
+  std::uint64_t datagrams_received = 0, datagrams_ignored = 0, updates_outdated = 0;
 };
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
@@ -190,6 +194,11 @@ class Ambassador {
 
   /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has explained: close the connection.
   bool receive(Bytes bytes);
+  /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is counted and otherwise ignored.
+  void receive_datagram(Bytes datagram);
+  /// The datagram that must go to the RTI, if not empty, and that it has gone. `clear_outgoing` says no word of it.
+  Bytes outgoing_datagram() const { return outgoing_datagram_; }
+  void clear_outgoing_datagram();
   /// What must go to the RTI, and that it has gone.
   Bytes outgoing() const { return outgoing_.bytes(); }
   void clear_outgoing();
@@ -252,6 +261,14 @@ class Ambassador {
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
+
+  // Datagrams (ambassador_datagrams.cpp).
+  bool take_datagram(const DatagramHead& head, Reader& reader);
+  bool take_datagram_updates(const DatagramHead& head, Reader& reader);
+  void apply_datagram(Bytes datagram);
+  void apply_held_datagrams();
+  void acknowledge_datagrams();
+
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
   // Time management (ambassador_time.cpp).
@@ -298,6 +315,16 @@ class Ambassador {
   std::optional<Stamp> heard_stamp_;   ///< of the frame being read
   std::vector<std::byte> coded_, decoded_;
   KeyframeMemory keyframes_;
+
+  // Datagrams.
+  ArrivalOrder arrivals_;
+  DatagramReceipts receipts_;
+  std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
+  std::vector<std::byte> outgoing_datagram_, cut_values_;
+  std::uint32_t frames_heard_ = 0;                     ///< from the one that let us in
+  bool has_datagrams_ = false;                         ///< one has come: the order of frames matters too
+  double receipts_due_since_ = 0.0;
+
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;
   bool has_clock_ = false, has_said_ = false, has_heard_ = false;
   AmbassadorCounters counters_;

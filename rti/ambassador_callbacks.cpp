@@ -28,6 +28,7 @@ void Ambassador::enable_callbacks() {
   const std::string loss = std::move(held_loss_);
   held_loss_.clear();
   if (!held.empty()) take_bytes(held);
+  apply_held_datagrams();
   if (!loss.empty()) lose(loss);
 }
 

@@ -18,6 +18,7 @@ bool Ambassador::receive(Bytes bytes) {
 bool Ambassador::take_bytes(Bytes bytes) {
   const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); });
   if (!is_understood) lose("the RTI sent what this version does not understand");
+  if (!held_datagrams_.empty()) apply_held_datagrams();
   return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max || (lose("too many callbacks wait to be evoked"), false));
 }
 
@@ -35,6 +36,7 @@ void Ambassador::lose(std::string_view why) {
 
 bool Ambassador::take_frame(Bytes frame) {
   ++counters_.frames_received;
+  if (phase_ == Phase::joined) ++frames_heard_;
   if (!postponed_.empty() && !release_postponed()) return false;
   heard_stamp_.reset();
   Reader reader(frame);
@@ -94,6 +96,7 @@ bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
   federate_ = {message.federate};
   federates_.front().first = federate_;
   object_block_ = message.object_block;
+  frames_heard_ = 1;
   callbacks_.joined(federate_);
   return true;
 }
@@ -120,6 +123,7 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
     KnownObject* known = find({message.object});
     if (known == nullptr || known->is_own) return false;
     known_.erase({message.object});
+    arrivals_.leave({message.object});
     ++counters_.objects_removed;
     if (timed_ != nullptr) callbacks_.remove_object_instance_with_time({message.object}, *timed_);
     else callbacks_.remove_object_instance({message.object});
@@ -137,9 +141,13 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
 
 bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
   InScopeMessage message;
-  if (!exchange(reader, message) || find({message.object}) == nullptr) return false;
+  const KnownObject* known = exchange(reader, message) ? find({message.object}) : nullptr;
+  if (known == nullptr) return false;
   ++counters_.scope_changes;
-  if (static_cast<MessageKind>(kind) == MessageKind::in_scope) callbacks_.attributes_in_scope({message.object});
+  const bool is_in = static_cast<MessageKind>(kind) == MessageKind::in_scope;
+  if (is_in) arrivals_.enter({message.object}, known->object_class, order_of_frame(frames_heard_));
+  else arrivals_.leave({message.object});
+  if (is_in) callbacks_.attributes_in_scope({message.object});
   else callbacks_.attributes_out_of_scope({message.object});
   return true;
 }
@@ -168,6 +176,7 @@ bool Ambassador::take_updates(Reader& reader) {
       values = decoded_;
     }
     ++counters_.updates_reflected;
+    if (has_datagrams_) arrivals_.accept({object}, message.object_class, attributes, order_of_frame(frames_heard_));
     if (timed_ != nullptr) callbacks_.reflect_attribute_values_with_time({object}, attributes, values, *timed_);
     else callbacks_.reflect_attribute_values({object}, attributes, values, stamp);
     return phase_ == Phase::joined;

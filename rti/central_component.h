@@ -17,6 +17,10 @@ class Outlet {
   virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
   /// Bytes that its sends have left to wait because it doesn't take them.
   virtual std::size_t waiting_bytes(ConnectionId) const { return 0; }
+  /// The most bytes that a datagram to this destination may have now; 0 where there is no way for them.
+  virtual std::size_t datagram_max(ConnectionId) const { return 0; }
+  /// At most once per flush and destination, before its `send`, beside one more to ask if a way is open again. Valid during the call.
+  virtual void send_datagrams(ConnectionId, std::span<const Datagram>) {}
   /// Close it once the bytes sent before are on their way; the central component has forgotten it already.
   virtual void drop(ConnectionId connection, std::string_view why) = 0;
 };
@@ -28,6 +32,8 @@ class CentralComponent {
   /// Connection ids may be any numbers that are not connected now; small ones are dense.
   virtual void connect(ConnectionId connection) = 0;
   virtual void receive(ConnectionId connection, Bytes bytes) = 0;
+  /// A datagram of a federate, whole; in any order, doubled or not at all.
+  virtual void receive_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
   virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
   /// `now` [s] never decreases.
   virtual void advance_clock(double now) = 0;

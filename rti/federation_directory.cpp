@@ -14,6 +14,8 @@ class FederationDirectory::Usher final : public Outlet {
  public:
   Usher(FederationDirectory& directory, Outlet& outlet) : directory_(directory), outlet_(outlet) {}
   void send(ConnectionId connection, std::span<const Bytes> parts) override { outlet_.send(connection, parts); }
+  std::size_t datagram_max(ConnectionId connection) const override { return outlet_.datagram_max(connection); }
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override { outlet_.send_datagrams(connection, datagrams); }
   void drop(ConnectionId connection, std::string_view why) override {
     directory_.connections_[connection] = {};
     outlet_.drop(connection, why);
@@ -158,6 +160,10 @@ void FederationDirectory::drop(ConnectionId id) {
   ++drops_;
   connections_[id] = {};
   answers_.push_back({id, {}, true});
+}
+
+void FederationDirectory::receive_datagram(ConnectionId id, Bytes datagram) {
+  if (id < connections_.size() && connections_[id].execution != nullptr) connections_[id].execution->receive_datagram(id, datagram);
 }
 
 void FederationDirectory::disconnect(ConnectionId id, std::string_view why) {

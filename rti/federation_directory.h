@@ -37,6 +37,7 @@ class FederationDirectory final : public CentralComponent {
 
   void connect(ConnectionId connection) override;
   void receive(ConnectionId connection, Bytes bytes) override;
+  void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
   void advance_clock(double now) override;
   void match() override;

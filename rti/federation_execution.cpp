@@ -41,6 +41,7 @@ FederationExecution::~FederationExecution() = default;
 
 void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
 void FederationExecution::receive(ConnectionId connection, Bytes bytes) { parts_->receive(connection, bytes); }
+void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagram) { parts_->receive_datagram(connection, datagram); }
 void FederationExecution::disconnect(ConnectionId connection, std::string_view why) { parts_->disconnect(connection, why); }
 void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
 

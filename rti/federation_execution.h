@@ -61,6 +61,9 @@ struct FederationCounters {
   std::uint64_t joins = 0, resigns = 0;
   std::uint64_t timed_received = 0, timed_sent = 0, time_advance_grants = 0, retractions = 0;  ///< messages in time-stamp order; time management
   std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`
+  /// Of best-effort updates: datagrams sent (their bytes are in those above), ignored for they made no sense, records sent again since they may have been lost,
+  /// and how often a federate's datagrams went unanswered, so that it got everything by the stream, and were answered again.
+  std::uint64_t datagrams_sent = 0, datagrams_ignored = 0, updates_repaired = 0, datagram_fallbacks = 0, datagram_recoveries = 0;
 };
 
 /// Where a federate subscribes, as it last committed it.
@@ -83,6 +86,7 @@ class FederationExecution final : public CentralComponent {
   /// Connection ids may be any numbers that are not connected now; small ones are dense.
   void connect(ConnectionId connection) override;
   void receive(ConnectionId connection, Bytes bytes) override;
+  void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
   /// `now` [s] never decreases. Drops who has been silent for too long.
   void advance_clock(double now) override;

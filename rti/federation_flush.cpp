@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 
+#include "rti/buffering/run_scope.h"
 #include "rti/federation_parts.h"
 #include "rti/wire/update_block.h"
 
@@ -47,33 +48,13 @@ class UpdatesBlock {
   bool is_open_ = false;
 };
 
-/// True if every member of the run is in scope.
-bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
-  for (std::size_t i = run.first_word; i <= run.last_word; ++i)
-    if ((run.members.word(i) & ~in_scope.word(i)) != 0) return false;
-  return true;
-}
-
-/// Calls `visit(index of the record)` for each member that is in scope and whose state doesn't go out whole anyway.
-template <class Visit>
-void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
-  if (run.slots.size() <= UpdateRun::short_run) {
-    for (std::size_t i = 0; i < run.slots.size(); ++i)
-      if (interest.in_scope.contains(run.slots[i]) && !interest.fresh.contains(run.slots[i])) visit(i);
-    return;
-  }
-  for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
-    std::uint64_t bits = run.members.word(i) & interest.in_scope.word(i) & ~interest.fresh.word(i);
-    for (; bits != 0; bits &= bits - 1) visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
-  }
-}
-
 }  // namespace
 
 void FederationExecution::Parts::flush(Outlet& outlet) {
   send_answers(outlet);
   runs_ = buffering_->seal();
   baselines_.begin(runs_, federates_.size());
+  batch_.begin_tick();
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     if (federates_[slot].is_joined) flush_federate(slot, outlet);
   baselines_.end();
@@ -96,6 +77,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   is_keyframe_begun_ = false;
   pieces_.clear();
   const std::uint64_t before = counters_.updates_sent;
+  begin_datagrams(federate, outlet);
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   write_scope_events(slot);
   const bool is_held = holds_back(slot, outlet);
@@ -103,7 +85,9 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
     hold_back(slot);
   } else {
     write_fresh_states(slot);
+    if (federate.way && !federate.way->due.empty()) write_due_states(slot);
     gather_runs(slot);
+    send_datagrams(federate, outlet);
   }
   federate.counts.reflections_received += counters_.updates_sent - before;
   scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
@@ -194,6 +178,7 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
   for (const UpdateRun& run : runs_) {
     if (run.owner == slot) continue;
     const auto index = static_cast<std::size_t>(&run - runs_.data());
+    if (way_ != nullptr && gather_datagrams(index, interest)) continue;
     if (baselines_.covers(index)) {
       gather_periodic(index, slot);
       continue;
@@ -283,6 +268,7 @@ void FederationExecution::Parts::send_pieces(Federate& federate, Outlet& outlet)
   counters_.bytes_sent += size;
   federate.counts.bytes_received += size;
   ++counters_.frames_sent;
+  ++federate.frames;
   outlet.send(federate.connection, gathered_);
 }
 

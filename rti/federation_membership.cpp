@@ -33,7 +33,9 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       interest_(*distribution_),
       buffering_(buffering_of(services)),
       baselines_(fom, settings.keyframe_period),
-      interaction_subscribers_(fom.interaction_classes().size()) {}
+      interaction_subscribers_(fom.interaction_classes().size()) {
+  list_best_effort();
+}
 
 void FederationExecution::Parts::connect(ConnectionId connection) {
   if (connection >= connections_.size()) connections_.resize(connection + 1);

@@ -15,6 +15,8 @@
 #include "rti/ownership/ownership.h"
 #include "rti/buffering/buffering.h"
 #include "rti/baselines/baselines.h"
+#include "rti/buffering/datagram_batch.h"
+#include "rti/datagram_way.h"
 
 namespace rink::rti {
 
@@ -39,6 +41,9 @@ class FederationExecution::Parts {
     Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
     double last_said = 0.0;
     FederateCounts counts;       ///< what is counted as it happens; `report` adds the rest
+    std::uint32_t frames = 0;          ///< sent to it
+    bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
+    std::unique_ptr<DatagramWay> way;  ///< null until it has one
   };
   enum class Phase : std::uint8_t { unknown, connected, joined };
   struct Connection {
@@ -146,6 +151,23 @@ class FederationExecution::Parts {
   Outcome take_time(std::uint32_t slot, MessageKind kind, Reader& reader);
   void settle_time();
   void leave_time(std::uint32_t slot);
+
+  // Best-effort updates by datagram (federation_datagrams.cpp).
+  void list_best_effort();
+  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes values);
+  void begin_datagrams(Federate& federate, Outlet& outlet);
+  void probe(Federate& federate, Outlet& outlet);
+  void write_due_states(std::uint32_t slot);
+  bool gather_datagrams(std::size_t run, const FederateInterest& interest);
+  void send_datagrams(Federate& federate, Outlet& outlet);
+  void receive_datagram(ConnectionId connection, Bytes datagram);
+  std::vector<AttributeSet> best_effort_;  ///< by class
+  bool has_best_effort_ = false;           ///< any at all
+  bool has_ways_ = false;                  ///< some federate had a way
+  DatagramBatch batch_;
+  DatagramWay* way_ = nullptr;             ///< of the federate at hand, while it is used
+  std::size_t datagram_size_max_ = 0;
+  std::vector<std::byte> values_;
 
   template <class Message>
   static void say(std::vector<std::byte>& bytes, Message message) {

@@ -223,7 +223,8 @@ Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const Update
   Federate& owner = federates_[slot];
   owner.newest = *owner.stamp;
   objects_.store(object, AttributeSet(message.attributes), values);
-  buffering_->append(slot, object, objects_[object], AttributeSet(message.attributes), owner.newest, values);
+  if (has_ways_) append_apart(slot, object, AttributeSet(message.attributes), values);
+  else buffering_->append(slot, object, objects_[object], AttributeSet(message.attributes), owner.newest, values);
   ++counters_.updates_received;
   return std::nullopt;
 }

@@ -13,6 +13,7 @@ using Outcome = std::optional<Violation>;
 FederationExecution::Parts::~Parts() = default;
 
 Outcome FederationExecution::Parts::take_time(std::uint32_t slot, MessageKind kind, Reader& reader) {
+  federates_[slot].has_stream_only = true;  // whose messages wait for its time, which no datagram could keep up with
   if (!time_) {
     auto management = make_time_management_ ? make_time_management_() : std::make_unique<ConservativeTime>();
     time_ = std::make_unique<Time>(*this, std::move(management));

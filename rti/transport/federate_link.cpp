@@ -20,6 +20,12 @@ void FederateLink::flush(double now) {
   if (is_finished_) return;
   ambassador_.advance_clock(now);
   if (!is_open_) return;
+  if (const Bytes datagram = ambassador_.outgoing_datagram(); !datagram.empty()) {
+    const Datagram whole{datagram, {}};
+    if (transport_.datagram_max(connection_) >= datagram.size()) transport_.send_datagrams(connection_, std::span(&whole, 1));
+    transport_.push();
+    ambassador_.clear_outgoing_datagram();
+  }
   const Bytes waiting = ambassador_.outgoing();
   if (waiting.empty()) return;
   transport_.send(connection_, std::span(&waiting, 1));
@@ -53,6 +59,10 @@ void FederateLinks::on_bytes(ConnectionId connection, Bytes bytes) {
 
 void FederateLinks::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
   if (FederateLink* link = find(connection)) link->closed(reason, detail);
+}
+
+void FederateLinks::on_datagram(ConnectionId connection, Bytes datagram) {
+  if (FederateLink* link = find(connection)) link->received_datagram(datagram);
 }
 
 void FederateLinks::flush(double now) {

@@ -23,6 +23,7 @@ class FederateLink {
   /// What the transport says of our connection. Bytes that the ambassador rejects close the connection.
   void opened() { is_open_ = true; }
   void received(Bytes bytes);
+  void received_datagram(Bytes datagram) { ambassador_.receive_datagram(datagram); }
   void closed(CloseReason reason, const std::string& detail);
 
   /// Hands in the time and sends what waits, as one write, once the connection is open.
@@ -47,6 +48,7 @@ class FederateLinks final : public TransportListener {
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
+  void on_datagram(ConnectionId connection, Bytes datagram) override;
   /// Flushes every link.
   void flush(double now);
 

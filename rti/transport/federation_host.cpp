@@ -27,6 +27,10 @@ class FederationHost::Port final : public TransportListener {
     has_heard_ = true;
     host_.core_.receive(numbers_[connection], bytes);
   }
+  void on_datagram(ConnectionId connection, Bytes datagram) override {
+    has_heard_ = true;
+    host_.core_.receive_datagram(numbers_[connection], datagram);
+  }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
     has_heard_ = true;
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
@@ -55,6 +59,14 @@ class FederationHost::HostOutlet final : public Outlet {
   std::size_t waiting_bytes(ConnectionId connection) const override {
     const Route& route = host_.routes_[connection];
     return route.port != nullptr ? route.port->transport().queued_bytes(route.connection) : 0;
+  }
+  std::size_t datagram_max(ConnectionId connection) const override {
+    const Route& route = host_.routes_[connection];
+    return route.port != nullptr ? route.port->transport().datagram_max(route.connection) : 0;
+  }
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
+    const Route& route = host_.routes_[connection];
+    if (route.port != nullptr) route.port->transport().send_datagrams(route.connection, datagrams);
   }
   void drop(ConnectionId connection, std::string_view) override {
     const Route& route = host_.routes_[connection];
@@ -101,6 +113,7 @@ void FederationHost::poll(Transport& transport) {
 void FederationHost::flush() {
   HostOutlet outlet(*this);
   core_.flush(outlet);
+  for (const auto& port : ports_) port->transport().push();
 }
 
 }  // namespace rink::rti

@@ -33,11 +33,6 @@ class TransportError : public std::runtime_error {
   Kind kind_;
 };
 
-/// One datagram in two parts that travel as one: what is its receiver's alone, and what may be the same for many.
-struct Datagram {
-  Bytes head, body;
-};
-
 /// Told what a transport found out while it was polled. Callbacks may send and close, but not poll.
 class TransportListener {
  public:

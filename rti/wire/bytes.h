@@ -12,4 +12,9 @@ using ConnectionId = std::uint32_t;
 
 using Bytes = std::span<const std::byte>;
 
+/// One datagram in two parts that travel as one: what is its receiver's alone, and what may be the same for many.
+struct Datagram {
+  Bytes head, body;
+};
+
 }  // namespace rink::rti

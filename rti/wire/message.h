@@ -42,6 +42,7 @@ enum class MessageKind : std::uint8_t {
   // free: 24 to 27 federation management, 35 time, 36 to 45 ownership, 46 to 49 objects and declarations, 58 to 63 the connection
   // baselines
   acknowledge_keyframe = 50, refuse_keyframe = 51,
+  acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,

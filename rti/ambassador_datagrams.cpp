@@ -1,0 +1,124 @@
+// Best-effort updates on the federate's side: applied unless something newer is known, acknowledged so that the RTI need not send them again.
+#include <bit>
+#include <utility>
+
+#include "rti/ambassador.h"
+#include "rti/wire/datagram.h"
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+namespace {
+constexpr std::size_t held_max = 256;  ///< datagrams that wait for their frames; more are lost, and come again
+}
+
+void Ambassador::receive_datagram(Bytes datagram) {
+  if (phase_ != Phase::joined) return;
+  has_heard_ = has_datagrams_ = true;
+  counters_.bytes_received += datagram.size();
+  DatagramHead head;
+  Reader reader(datagram);
+  if (!exchange(reader, head)) {
+    ++counters_.datagrams_ignored;
+    return;
+  }
+  // It may speak of objects that a frame on its way tells of; and while callbacks are disabled frames are held back too.
+  const bool may_tell = are_callbacks_enabled_ || queue_;
+  if (may_tell && head.frames <= frames_heard_) apply_datagram(datagram);
+  else if (held_datagrams_.size() < held_max) held_datagrams_.emplace_back(datagram.begin(), datagram.end());
+  else ++counters_.datagrams_ignored;
+}
+
+void Ambassador::apply_datagram(Bytes datagram) {
+  DatagramHead head;
+  Reader reader(datagram);
+  exchange(reader, head);
+  if (head.number != 0) {
+    if (!receipts_.is_due()) receipts_due_since_ = now_;
+    if (!receipts_.note(head.number)) {
+      ++counters_.datagrams_ignored;
+      return;
+    }
+  }
+  ++(take_datagram(head, reader) ? counters_.datagrams_received : counters_.datagrams_ignored);
+  if (receipts_.is_urgent()) acknowledge_datagrams();
+}
+
+void Ambassador::apply_held_datagrams() {
+  for (std::size_t i = 0; i < held_datagrams_.size() && phase_ == Phase::joined;) {
+    DatagramHead head;
+    Reader reader(held_datagrams_[i]);
+    exchange(reader, head);
+    if (head.frames > frames_heard_) {
+      ++i;
+      continue;
+    }
+    const std::vector<std::byte> datagram = std::move(held_datagrams_[i]);
+    held_datagrams_.erase(held_datagrams_.begin() + static_cast<std::ptrdiff_t>(i));
+    apply_datagram(datagram);
+  }
+}
+
+bool Ambassador::take_datagram(const DatagramHead& head, Reader& reader) {
+  const std::optional<Stamp> stamp_of_frame = std::exchange(heard_stamp_, std::nullopt);
+  bool is_understood = true;
+  while (is_understood && !reader.is_at_end() && phase_ == Phase::joined) {
+    std::uint8_t kind = 0;
+    reader.number(kind);
+    if (kind == datagram_end) break;
+    if (static_cast<MessageKind>(kind) == MessageKind::stamp) is_understood = take_stamp(reader);
+    else is_understood = static_cast<MessageKind>(kind) == MessageKind::updates && take_datagram_updates(head, reader);
+  }
+  heard_stamp_ = stamp_of_frame;
+  return is_understood;
+}
+
+bool Ambassador::take_datagram_updates(const DatagramHead& head, Reader& reader) {
+  UpdatesMessage message;
+  if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
+  const AttributeSet attributes{message.attributes};
+  if (!arrivals_.best_effort(message.object_class).includes(attributes)) return false;
+  const ObjectClass& object_class = fom_.at(ObjectClassHandle{message.object_class});
+  const Stamp stamp = *heard_stamp_;
+  const bool is_read = read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
+    const KnownObject* known = find({object});
+    // One that is unknown or out of scope by now has been told of since this was said, or will be, with its whole state.
+    const bool is_known = known != nullptr && known->object_class == message.object_class;
+    const AttributeSet accepted = is_known ? arrivals_.accept({object}, message.object_class, attributes, order_of_datagram(head)) : AttributeSet();
+    if (accepted.is_empty()) return ++counters_.updates_outdated, true;
+    if (accepted != attributes) {
+      cut_values_.clear();
+      for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
+        const Bytes value = coded_value(object_class, attributes, {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+        cut_values_.insert(cut_values_.end(), value.begin(), value.end());
+      }
+      values = cut_values_;
+    }
+    if (is_coded(object_class, accepted)) {
+      decoded_.clear();
+      if (!decode(object_class, accepted, values, stamp.time, decoded_)) return false;
+      values = decoded_;
+    }
+    ++counters_.updates_reflected;
+    callbacks_.reflect_attribute_values({object}, accepted, values, stamp);
+    return phase_ == Phase::joined;
+  });
+  return is_read || phase_ != Phase::joined;
+}
+
+void Ambassador::clear_outgoing_datagram() {
+  counters_.bytes_sent += outgoing_datagram_.size();
+  outgoing_datagram_.clear();
+}
+
+void Ambassador::acknowledge_datagrams() {
+  if (outgoing_datagram_.empty()) {
+    DatagramHead head;
+    Writer writer(outgoing_datagram_);
+    exchange(writer, head);
+  }
+  AcknowledgeDatagramsMessage message = receipts_.acknowledge();
+  write(outgoing_datagram_, message);
+}
+
+}  // namespace rink::rti

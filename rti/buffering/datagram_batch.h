@@ -1,0 +1,77 @@
+// The datagrams of one flush: cut once from runs of updates for all who hear of a whole run, gathered record by record for others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rti/buffering/datagram_ledger.h"
+#include "rti/buffering/update_runs.h"
+
+namespace rink::rti {
+
+/// A run in datagrams, each complete in itself: stamp, header, records, end. All but the last are padded to one size.
+class CutRun {
+ public:
+  struct Part {
+    std::size_t from, to;          ///< of `bytes`
+    std::size_t first, last;       ///< of `handles`
+  };
+  /// `size_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
+  void cut(const UpdateRun& run, std::size_t size_max);
+  bool fits = false;
+  std::vector<Part> parts;
+  std::vector<std::byte> bytes;
+  std::vector<std::uint32_t> handles;
+};
+
+/// Collects one destination's datagrams. Keeps its memory.
+class DatagramBatch {
+ public:
+  /// A new flush: runs may have changed.
+  void begin_tick() { cut_count_ = 0; }
+  /// Run number `index` of the tick, cut when it is first asked for.
+  const CutRun& cut(std::size_t index, const UpdateRun& run, std::size_t size_max);
+
+  /// A new destination, whose datagrams have bodies of at most `size_max` bytes.
+  void begin(std::size_t size_max);
+  /// The whole run. Its parts are not copied unless they are short; they must stay until the next `begin_tick`.
+  void add(const CutRun& cut, AttributeSet attributes);
+  /// One record; false if it does not fit a datagram.
+  bool add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t handle, Bytes values);
+  bool is_empty() const { return planned_.empty() && !is_open_; }
+
+  /// Numbers them after `frames` and notes in `ledger` what they carry. Valid until the next `begin`.
+  std::span<const Datagram> finish(std::uint32_t frames, DatagramLedger& ledger, double now);
+
+ private:
+  struct Planned {
+    Bytes shared;                             ///< somebody's bytes, or
+    std::size_t from = 0, to = 0;             ///< own ones
+    AttributeSet attributes;                  ///< of the shared
+    std::span<const std::uint32_t> handles;   ///< of the shared
+    std::size_t said_from = 0, said_to = 0;   ///< of the own
+  };
+  void open();
+  void close(bool is_full);
+  void end_block();
+  void carry(AttributeSet attributes, std::span<const std::uint32_t> handles);
+
+  std::vector<CutRun> cuts_;
+  std::vector<bool> is_cut_;
+  std::size_t cut_count_ = 0;
+
+  std::size_t size_max_ = 0;
+  std::vector<std::byte> bytes_, heads_;
+  std::vector<std::uint32_t> said_;  ///< for each group: attributes, count, so many handles
+  std::vector<Planned> planned_;
+  std::vector<Datagram> finished_;
+  bool is_open_ = false, has_block_ = false;
+  std::uint16_t block_class_ = 0;
+  AttributeSet block_attributes_;
+  Stamp block_stamp_;
+  std::uint32_t block_last_ = 0;
+  std::size_t block_count_ = 0;  ///< where `said_` counts the block's handles
+};
+
+}  // namespace rink::rti

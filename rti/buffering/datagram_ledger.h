@@ -1,0 +1,60 @@
+// What is in the datagrams that were sent and not yet acknowledged, so that the newest state of what got lost can be sent again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rti/fom/attribute_set.h"
+#include "rti/wire/datagram.h"
+
+namespace rink::rti {
+
+/// Of one destination. What a datagram says is kept as handles only: what is sent again is the newest state then, not what was lost. Costs one copy of
+/// the handles per datagram and nothing per object until one is lost.
+class DatagramLedger {
+ public:
+  /// An object whose state may not have arrived.
+  struct Lost {
+    std::uint32_t handle;
+    AttributeSet attributes;
+  };
+
+  /// Opens the entry of the next datagram and returns its number. `now` [s].
+  std::uint32_t begin(double now);
+  /// Adds to it: the same attributes of so many objects.
+  void carry(AttributeSet attributes, std::span<const std::uint32_t> handles);
+
+  /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told, is lost: appended to `lost`, unless a later datagram
+  /// says the same attributes of the same object. False if it acknowledges what was never sent.
+  bool acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost);
+  /// The same for what was sent longer ago than a round trip ever took.
+  void expire(double now, std::vector<Lost>& lost);
+  /// All that is unsettled is lost: there is no way any more.
+  void abandon(std::vector<Lost>& lost);
+
+  /// Since when everything has gone unanswered [s]; nothing if all is settled or an answer came since.
+  std::optional<double> unanswered_since() const { return unanswered_since_; }
+  std::size_t unsettled() const { return size_; }
+
+ private:
+  struct Entry {
+    double sent_s = 0.0;
+    bool is_settled = false;
+    std::vector<std::uint32_t> said;  ///< for each group: attributes, count, so many handles
+  };
+  static constexpr std::uint32_t overtaken_by = 3;
+  Entry& at(std::uint32_t number) { return ring_[number & (ring_.size() - 1)]; }
+  std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
+  void lose(std::uint32_t number, std::vector<Lost>& lost);
+  void forget_settled();
+
+  std::vector<Entry> ring_;  ///< a power of two of them; they keep their memory
+  std::uint32_t next_ = 1;   ///< number of the next datagram
+  std::size_t size_ = 0;     ///< from the oldest unsettled one to the newest
+  double smoothed_s_ = 0.0;  ///< round trip with the receiver's delay
+  std::optional<double> unanswered_since_;
+};
+
+}  // namespace rink::rti

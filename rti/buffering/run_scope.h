@@ -1,0 +1,32 @@
+// Which records of a run of updates a federate hears of.
+#pragma once
+
+#include <bit>
+
+#include "rti/buffering/update_runs.h"
+#include "rti/distribution/interest.h"
+
+namespace rink::rti {
+
+/// True if every member of the run is in scope.
+inline bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
+  for (std::size_t i = run.first_word; i <= run.last_word; ++i)
+    if ((run.members.word(i) & ~in_scope.word(i)) != 0) return false;
+  return true;
+}
+
+/// Calls `visit(index of the record)` for each member that is in scope and whose state doesn't go out whole anyway.
+template <class Visit>
+void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
+  if (run.slots.size() <= UpdateRun::short_run) {
+    for (std::size_t i = 0; i < run.slots.size(); ++i)
+      if (interest.in_scope.contains(run.slots[i]) && !interest.fresh.contains(run.slots[i])) visit(i);
+    return;
+  }
+  for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
+    std::uint64_t bits = run.members.word(i) & interest.in_scope.word(i) & ~interest.fresh.word(i);
+    for (; bits != 0; bits &= bits - 1) visit(run.record_of[i * 64 + static_cast<std::size_t>(std::countr_zero(bits))]);
+  }
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,73 @@
+// Which of two values of an object was said later, when they came by different ways.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/fom/fom.h"
+#include "rti/objects/object_map.h"
+#include "rti/wire/datagram.h"
+
+namespace rink::rti {
+
+/// Of each object in scope that has best-effort attributes, the order (rti/wire/datagram.h) of the newest value of each. Other objects cost nothing.
+class ArrivalOrder {
+ public:
+  explicit ArrivalOrder(const Fom& fom) {
+    for (const ObjectClass& each : fom.object_classes()) {
+      best_effort_.push_back(best_effort_attributes(each));
+      stride_ = std::max(stride_, static_cast<std::size_t>(best_effort_.back().count()));
+    }
+  }
+
+  AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
+
+  /// From now on everything older than `order` is.
+  void enter(ObjectHandle object, std::uint16_t object_class, std::uint64_t order) {
+    if (best_effort_[object_class].is_empty()) return;
+    std::uint32_t* place = places_.find(object);
+    if (place == nullptr) place = &(places_[object] = take_place());
+    for (std::size_t i = 0; i < stride_; ++i) newest_[*place * stride_ + i] = order;
+  }
+  void leave(ObjectHandle object) {
+    const std::uint32_t* place = places_.find(object);
+    if (place == nullptr) return;
+    free_.push_back(*place);
+    places_.erase(object);
+  }
+  /// Notes that values of `set` were said at `order`, and returns those that are not older than what is known; none of an object that is not in scope.
+  AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet set, std::uint64_t order) {
+    const std::uint32_t* place = places_.find(object);
+    if (place == nullptr) return {};
+    AttributeSet accepted;
+    const AttributeSet best_effort = best_effort_[object_class];
+    for (std::uint32_t bits = (set & best_effort).bits; bits != 0; bits &= bits - 1) {
+      const auto attribute = static_cast<std::uint32_t>(std::countr_zero(bits));
+      std::uint64_t& newest = newest_[*place * stride_ + static_cast<std::size_t>(std::popcount(best_effort.bits & ((1u << attribute) - 1)))];
+      if (order < newest) continue;
+      newest = order;
+      accepted.insert({attribute});
+    }
+    return accepted;
+  }
+  std::size_t memory_bytes() const { return places_.memory_bytes() + newest_.capacity() * sizeof newest_[0] + free_.capacity() * sizeof free_[0]; }
+
+ private:
+  std::uint32_t take_place() {
+    if (free_.empty()) {
+      newest_.resize(newest_.size() + stride_);
+      return static_cast<std::uint32_t>(newest_.size() / stride_ - 1);
+    }
+    const std::uint32_t place = free_.back();
+    free_.pop_back();
+    return place;
+  }
+
+  std::vector<AttributeSet> best_effort_;  ///< by class
+  std::size_t stride_ = 0;                 ///< the most that a class has
+  ObjectMap<std::uint32_t> places_;        ///< of objects in scope
+  std::vector<std::uint64_t> newest_;      ///< `stride_` for each place
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace rink::rti
