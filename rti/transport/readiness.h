@@ -51,6 +51,9 @@ class Readiness {
   /// may be. So a file that always has something comes back when all others had their turn. An event may be about a file that was closed since.
   std::optional<Event> next();
 
+  /// Can be read when there is an event.
+  int file() const { return epoll_.number(); }
+
  private:
   static constexpr std::size_t batch_max = 512;  ///< events of one system call
   void ask_now();

@@ -243,4 +243,12 @@ std::size_t TcpTransport::queued_bytes(ConnectionId connection) const { return c
 TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
 TransportCounters TcpTransport::totals() const { return core_->totals(); }
 
+
+int TcpTransport::wait_file() const { return core_->wait_file(); }
+int TcpTransport::file(ConnectionId connection) const { return core_->file(connection); }
+int TcpTransport::Core::file(ConnectionId connection) const {
+  const Peer* peer = find(connection);
+  return peer != nullptr && peer->is_open && !peer->is_leaving ? peer->file.number() : -1;
+}
+
 }  // namespace rink::rti

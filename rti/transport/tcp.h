@@ -40,6 +40,10 @@ class TcpTransport final : public Transport {
   /// Sum over all connections that ever were; where the kernel was not asked or could not tell, our own count stands in for its.
   TransportCounters totals() const;
 
+  /// For a transport on top of this one: a file that can be read when a poll has something to tell, and that of an open connection's socket, -1 for others.
+  int wait_file() const;
+  int file(ConnectionId connection) const;
+
  private:
   class Core;
   std::unique_ptr<Core> core_;

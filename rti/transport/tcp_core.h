@@ -28,6 +28,8 @@ class TcpTransport::Core {
   std::size_t queued_bytes(ConnectionId connection) const;
   TransportCounters counters(ConnectionId connection) const;
   TransportCounters totals() const;
+  int wait_file() const { return readiness_.file(); }
+  int file(ConnectionId connection) const;
 
  private:
   struct Peer {

@@ -8,6 +8,7 @@
 
 #include "rti/transport/in_process.h"
 #include "rti/transport/tcp.h"
+#include "rti/transport/udp.h"
 #include "rti/transport/virtual_network.h"
 #include "tests/rti/sample_transport.h"
 
@@ -69,13 +70,15 @@ class VirtualKit final : public TransportKit {
   std::optional<VirtualEndpoint> server_;
 };
 
-class TcpKit final : public TransportKit {
+/// TCP, and UDP beside it, which is set up and limited in the same way.
+template <class Socket, class Settings>
+class SocketKit final : public TransportKit {
  public:
-  TcpKit() { restart_server(); }
+  SocketKit() { restart_server(); }
   Transport& server() override { return *server_; }
   Transport& client() override { return client_; }
   ConnectionId connect() override {
-    ensure_file_limit(2 * connections + 64);
+    ensure_file_limit(3 * connections + 64);
     return client_.connect("127.0.0.1", port_);
   }
   ConnectionId connect_to_nobody() override {
@@ -92,16 +95,20 @@ class TcpKit final : public TransportKit {
     port_ = server_->listen("127.0.0.1", port_);
   }
   bool limit_queue(std::size_t queue_max) override {
-    settings_.queue_max = queue_max;
+    tcp_of(settings_).queue_max = queue_max;
     return true;
   }
 
  private:
-  TcpSettings settings_;
+  static TcpSettings& tcp_of(TcpSettings& settings) { return settings; }
+  static TcpSettings& tcp_of(UdpSettings& settings) { return settings.tcp; }
+  Settings settings_;
   std::uint16_t port_ = 0;
-  TcpTransport client_;
-  std::optional<TcpTransport> server_;
+  Socket client_;
+  std::optional<Socket> server_;
 };
+using TcpKit = SocketKit<TcpTransport, TcpSettings>;
+using UdpKit = SocketKit<UdpTransport, UdpSettings>;
 
 class SampleKit final : public TransportKit {
  public:
@@ -138,7 +145,7 @@ KitChoice choice(const std::string& name) {
 }  // namespace
 
 std::vector<KitChoice> transport_kits() {
-  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<SampleKit>("sample")};
+  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SampleKit>("sample")};
 }
 
 }  // namespace rink::rti::testing

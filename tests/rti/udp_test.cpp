@@ -1,0 +1,260 @@
+// UDP beside TCP: how the way opens, who may not use it, and a federation whose best-effort updates take it.
+#include "rti/transport/udp.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+
+#include "rti/transport/readiness.h"
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Ear final : TransportListener {
+  std::vector<ConnectionId> open;
+  std::vector<std::vector<std::byte>> datagrams;
+  std::vector<std::byte> stream;
+  int closed = 0;
+  void on_open(ConnectionId connection) override { open.push_back(connection); }
+  void on_bytes(ConnectionId, Bytes bytes) override { stream.insert(stream.end(), bytes.begin(), bytes.end()); }
+  void on_close(ConnectionId, CloseReason, const std::string&) override { ++closed; }
+  void on_datagram(ConnectionId, Bytes datagram) override { datagrams.emplace_back(datagram.begin(), datagram.end()); }
+};
+
+template <class Condition>
+bool pump(UdpTransport& server, Ear& here, Transport& client, Ear& there, Condition is_done) {
+  for (const auto start = std::chrono::steady_clock::now(); !is_done();) {
+    if (std::chrono::steady_clock::now() - start > 10s) return false;
+    server.poll(200us, here);
+    client.poll(200us, there);
+  }
+  return true;
+}
+
+class Udp : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Udp, CarriesDatagramsWholeBothWays) {
+  UdpTransport server({.tcp = {}, .use_offload = GetParam()}), client({.tcp = {}, .use_offload = GetParam()});
+  Ear here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  ASSERT_TRUE(pump(server, here, client, there, [&] { return !here.open.empty() && server.datagram_max(here.open[0]) > 0 && client.datagram_max(connection) > 0; }));
+  const std::size_t size_max = server.datagram_max(here.open[0]);
+  EXPECT_EQ(size_max, 1200u - 9u);
+  std::mt19937 random(1);
+  std::vector<std::vector<std::byte>> sent;
+  for (int burst = 0; burst < 40; ++burst) {
+    // Runs of one size with a shorter one at their end, as blocks are cut, and others.
+    std::vector<std::vector<std::byte>> wholes;
+    for (int i = 0; i < 9; ++i) {
+      std::vector<std::byte> whole(burst % 2 == 0 && i % 4 != 3 ? size_max : 1 + random() % size_max);
+      for (std::byte& byte : whole) byte = static_cast<std::byte>(random());
+      wholes.push_back(std::move(whole));
+    }
+    std::vector<Datagram> datagrams;
+    for (const auto& whole : wholes) datagrams.push_back({Bytes(whole).first(whole.size() / 3), Bytes(whole).subspan(whole.size() / 3)});
+    (burst % 3 == 0 ? client : server).send_datagrams(burst % 3 == 0 ? connection : here.open[0], datagrams);
+    (burst % 3 == 0 ? client : server).push();
+    Ear& ear = burst % 3 == 0 ? here : there;
+    ASSERT_TRUE(pump(server, here, client, there, [&] { return ear.datagrams.size() >= wholes.size(); }));
+    EXPECT_EQ(ear.datagrams, wholes);
+    ear.datagrams.clear();
+  }
+  EXPECT_EQ(server.counters(here.open[0]).datagrams_sent, client.counters(connection).datagrams_received);
+  EXPECT_EQ(server.counters(here.open[0]).datagram_bytes_sent, client.counters(connection).datagram_bytes_received);
+  EXPECT_EQ(client.counters(connection).datagrams_sent, server.counters(here.open[0]).datagrams_received);
+  EXPECT_EQ(server.udp_counters().ways_opened, 1u);
+  EXPECT_EQ(server.udp_counters().stranger_datagrams + client.udp_counters().stranger_datagrams, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Offload, Udp, ::testing::Bool(), [](const auto& info) { return info.param ? "by_kernel" : "none"; });
+
+TEST(Udp, AClientOfPlainTcpHasTheStreamOnly) {
+  UdpTransport server;
+  TcpTransport client;
+  Ear here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  const auto words = bytes_of("RK is no greeting");  // but begins like one
+  const Bytes part = words;
+  for (const std::size_t cut : {1u, 2u, 5u}) client.send(connection, std::array{part.first(cut)});
+  ASSERT_TRUE(pump(server, here, client, there, [&] { return here.stream.size() == 8; }));
+  EXPECT_EQ(text_of(here.stream), "RRKRK is");
+  EXPECT_EQ(server.datagram_max(here.open[0]), 0u);
+  server.send(here.open[0], std::span(&part, 1));
+  ASSERT_TRUE(pump(server, here, client, there, [&] { return there.stream.size() == words.size(); }));
+}
+
+/// A UDP socket of somebody's own.
+struct RawSocket {
+  explicit RawSocket(const char* address) : file(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in from = place(address, 0);
+    EXPECT_EQ(::bind(file.number(), reinterpret_cast<sockaddr*>(&from), sizeof from), 0);
+  }
+  static sockaddr_in place(const char* address, std::uint16_t port) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    inet_pton(AF_INET, address, &to.sin_addr);
+    return to;
+  }
+  void send(std::uint16_t port, Bytes bytes) {
+    const sockaddr_in to = place("127.0.0.1", port);
+    ::sendto(file.number(), bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  }
+  std::vector<std::byte> receive() {
+    std::vector<std::byte> bytes(2000);
+    const ssize_t size = ::recv(file.number(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    bytes.resize(size < 0 ? 0 : static_cast<std::size_t>(size));
+    return bytes;
+  }
+  File file;
+};
+
+std::vector<std::byte> control(std::uint64_t key, std::uint8_t kind, std::uint64_t nonce, std::size_t size) {
+  std::vector<std::byte> bytes = values_of(key, kind, nonce);
+  bytes.resize(size);
+  return bytes;
+}
+
+TEST(Udp, OnlyTheHostOfTheStreamMayOpenTheWayAndOnlyByProvingItsAddress) {
+  UdpTransport server;
+  TcpTransport client;  // speaks the protocol by hand
+  Ear here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  const auto magic = bytes_of("RKDG");
+  const Bytes part = magic;
+  client.send(connection, std::span(&part, 1));
+  ASSERT_TRUE(pump(server, here, client, there, [&] { return there.stream.size() == 22; }));
+  std::uint16_t port = 0;
+  std::uint64_t up_key = 0, down_key = 0, nonce = 0;
+  std::memcpy(&port, there.stream.data() + 4, 2);
+  std::memcpy(&up_key, there.stream.data() + 6, 8);
+  std::memcpy(&down_key, there.stream.data() + 14, 8);
+
+  RawSocket stranger("127.0.0.2"), honest("127.0.0.1");
+  const auto settle = [&] {
+    for (int i = 0; i < 20; ++i) server.poll(1ms, here);
+  };
+  stranger.send(port, control(up_key, 1, 0, 1200));
+  honest.send(port, control(up_key + 1, 1, 0, 1200));
+  honest.send(port, control(up_key, 1, 0, 100));
+  honest.send(port, control(up_key, 0, 0, 60));
+  honest.send(port, {});
+  settle();
+  EXPECT_TRUE(stranger.receive().empty()) << "who knows the key but not the host";
+  EXPECT_TRUE(honest.receive().empty()) << "no key, or a question shorter than its answer";
+  EXPECT_EQ(server.udp_counters().stranger_datagrams, 5u);
+  EXPECT_TRUE(here.datagrams.empty());
+
+  honest.send(port, control(up_key, 1, 0, 1200));
+  settle();
+  const auto welcome = honest.receive();
+  ASSERT_EQ(welcome.size(), 1200u) << "no longer than the question";
+  EXPECT_EQ(server.datagram_max(here.open[0]), 0u) << "nothing flows before the address is proven";
+  std::memcpy(&nonce, welcome.data() + 9, 8);
+  honest.send(port, control(up_key, 3, nonce + 1, 17));
+  stranger.send(port, control(up_key, 3, nonce, 17));
+  settle();
+  EXPECT_EQ(server.datagram_max(here.open[0]), 0u);
+  honest.send(port, control(up_key, 3, nonce, 17));
+  settle();
+  EXPECT_GT(server.datagram_max(here.open[0]), 0u);
+  EXPECT_EQ(honest.receive(), control(down_key, 4, 0, 9));
+  RawSocket other_port("127.0.0.1");
+  other_port.send(port, control(up_key, 0, 0, 60));
+  settle();
+  EXPECT_TRUE(here.datagrams.empty()) << "from another port than the proven one";
+  honest.send(port, control(up_key, 0, 0, 60));
+  settle();
+  EXPECT_EQ(here.datagrams.size(), 1u);
+}
+
+TEST(Udp, WhereItDoesNotGetThroughTheStreamCarriesOnAndItIsCounted) {
+  TcpTransport server;  // promises a port where nobody listens
+  UdpTransport client;
+  Ear here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  std::uint16_t dead_port = 0;
+  {
+    UdpTransport gone;
+    dead_port = gone.listen("127.0.0.1", 0);
+  }
+  std::vector<std::byte> greeting = values_of(std::uint32_t{0x47444b52}, dead_port, std::uint64_t{1}, std::uint64_t{2});
+  const auto start = std::chrono::steady_clock::now();
+  bool is_greeted = false;
+  while (client.udp_counters().ways_failed == 0 && std::chrono::steady_clock::now() - start < 10s) {
+    server.poll(1ms, here);
+    if (!is_greeted && !here.open.empty()) {
+      is_greeted = true;
+      const Bytes part = greeting;
+      server.send(here.open[0], std::span(&part, 1));
+    }
+    client.poll(5ms, there);
+  }
+  EXPECT_EQ(client.udp_counters().ways_failed, 1u);
+  EXPECT_EQ(client.datagram_max(connection), 0u);
+  const auto words = bytes_of("still here");
+  const Bytes part = words;
+  server.send(here.open[0], std::span(&part, 1));
+  for (int i = 0; i < 100 && there.stream.size() < words.size(); ++i) client.poll(5ms, there);
+  EXPECT_EQ(text_of(there.stream), "still here");
+}
+
+TEST(Udp, AFederationsBestEffortUpdatesTakeItAndAllElseTheStream) {
+  const ObjectClassHandle tide = *harbour().object_class("Tide");
+  const AttributeSet level = harbour().attributes(tide);
+  UdpTransport server, clients;
+  FederationExecution execution(harbour(), {});
+  FederationHost host(execution);
+  host.add(server);
+  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  std::deque<Station> stations;
+  FederateLinks links;
+  double now = 0.0;
+  const auto round = [&] {
+    now += 0.001;
+    links.flush(now);
+    host.poll(200us);
+    host.advance_clock(now);
+    host.match();
+    host.flush();
+    clients.poll(200us, links);
+  };
+  for (int i = 0; i < 5; ++i) {
+    Station& station = stations.emplace_back(harbour());
+    station.link = std::make_unique<FederateLink>(station.ambassador, clients, clients.connect("127.0.0.1", port));
+    links.add(*station.link);
+    station.ambassador.join("rink", "station " + std::to_string(i), "");
+    if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
+    else station.ambassador.subscribe_object_class_attributes(tide, level);
+  }
+  for (int i = 0; i < 2000 && (execution.federate_count() < 5 || server.udp_counters().ways_opened < 5); ++i) round();
+  ASSERT_EQ(server.udp_counters().ways_opened, 5u);
+  for (int i = 0; i < 20; ++i) round();
+  std::vector<ObjectHandle> gauges;
+  for (int i = 0; i < 300; ++i) gauges.push_back(stations[0].ambassador.register_object_instance(tide));
+  for (int tick = 0; tick < 50; ++tick) {
+    for (const ObjectHandle gauge : gauges) stations[0].ambassador.update_attribute_values(gauge, level, values_of(static_cast<double>(tick)), {now, 0});
+    round();
+  }
+  for (int i = 0; i < 300; ++i) round();
+  std::uint64_t received = 0;
+  for (std::size_t i = 1; i < 5; ++i) {
+    received += stations[i].ambassador.counters().datagrams_received;
+    EXPECT_EQ(stations[i].heard.objects.size(), 300u);
+    for (const auto& [handle, object] : stations[i].heard.objects) EXPECT_EQ(object.values.at(0), values_of(49.0));
+  }
+  EXPECT_GE(execution.counters().datagrams_sent, 4u * 40u * 2u);
+  EXPECT_EQ(received, execution.counters().datagrams_sent) << "loopback loses nothing";
+  EXPECT_EQ(execution.counters().updates_repaired, 0u);
+  EXPECT_EQ(execution.counters().datagram_fallbacks, 0u);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
