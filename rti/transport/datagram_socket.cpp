@@ -140,7 +140,7 @@ void DatagramSender::send_apart(const Message& message) {
 
 DatagramReader::DatagramReader() : buffer_(message_max * buffer_size) {}
 
-void DatagramReader::read(int socket, const std::function<void(const SocketAddress&, Bytes)>& take) {
+bool DatagramReader::read(int socket, const std::function<void(const SocketAddress&, Bytes)>& take) {
   std::array<mmsghdr, message_max> headers{};
   std::array<iovec, message_max> vectors;
   std::array<SocketAddress, message_max> sources;
@@ -170,6 +170,7 @@ void DatagramReader::read(int socket, const std::function<void(const SocketAddre
     }
     for (std::size_t at = 0; at < bytes.size(); at += segment) take(sources[static_cast<std::size_t>(i)], bytes.subspan(at, std::min(segment, bytes.size() - at)));
   }
+  return count == static_cast<int>(message_max);
 }
 
 }  // namespace rink::rti

@@ -64,8 +64,8 @@ class DatagramSender {
 class DatagramReader {
  public:
   DatagramReader();
-  /// Calls `take(source, datagram)` for each until none is left or a batch was not full.
-  void read(int socket, const std::function<void(const SocketAddress&, Bytes)>& take);
+  /// Calls `take(source, datagram)` for each of at most sixteen messages; false if none is left.
+  bool read(int socket, const std::function<void(const SocketAddress&, Bytes)>& take);
   std::uint64_t calls() const { return calls_; }
 
  private:

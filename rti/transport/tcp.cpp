@@ -144,7 +144,7 @@ void TcpTransport::Core::opened(Peer& peer) {
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   peer.is_open = true;
   const ConnectionId id = peer.id;
-  if (!peer.queue.empty()) await_room(peer);  // sent before it was open
+  if (!peer.queue.empty()) await_room(peer), drain(peer);  // sent before it was open
   listener_->on_open(id);
 }
 
@@ -242,7 +242,6 @@ TransportCounters TcpTransport::Core::totals() const {
 std::size_t TcpTransport::queued_bytes(ConnectionId connection) const { return core_->queued_bytes(connection); }
 TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
 TransportCounters TcpTransport::totals() const { return core_->totals(); }
-
 
 int TcpTransport::wait_file() const { return core_->wait_file(); }
 int TcpTransport::file(ConnectionId connection) const { return core_->file(connection); }

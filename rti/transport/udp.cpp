@@ -134,6 +134,7 @@ Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
     const std::array<std::byte, greeting_size> head = way.head;
     const std::size_t size = way.head_size;
     way.role = Way::Role::none;
+    let_go(connection, way);
     forward(connection, Bytes(head).first(size));
     return find(connection) == nullptr ? Bytes() : bytes;
   }
@@ -159,6 +160,33 @@ void UdpTransport::Core::greet(ConnectionId connection, Way& way) {
   const Bytes bytes = greeting;
   tallies_[connection].stream_sent = greeting_size;
   tcp_.send(connection, std::span(&bytes, 1));
+  let_go(connection, way);
+}
+
+/// The greeting comes first of all, and whether there is one is known when the client has spoken.
+void UdpTransport::Core::send(ConnectionId connection, std::span<const Bytes> parts) {
+  Way* way = find(connection);
+  if (way == nullptr || way->role != Way::Role::undecided) return tcp_.send(connection, parts);
+  std::vector<std::byte>& held = way->held.emplace_back();
+  for (const Bytes part : parts) held.insert(held.end(), part.begin(), part.end());
+  way->held_bytes += held.size();
+  if (way->held_bytes <= settings_.tcp.queue_max) return;
+  way->role = Way::Role::none;  // it has never spoken: what becomes of it is up to its own reading
+  let_go(connection, *way);
+}
+
+void UdpTransport::Core::let_go(ConnectionId connection, Way& way) {
+  for (const std::vector<std::byte>& each : way.held) {
+    const Bytes bytes = each;
+    tcp_.send(connection, std::span(&bytes, 1));
+  }
+  way.held = {};
+  way.held_bytes = 0;
+}
+
+void UdpTransport::Core::close(ConnectionId connection) {
+  if (Way* way = find(connection)) let_go(connection, *way);
+  tcp_.close(connection);
 }
 
 void UdpTransport::Core::open_socket(ConnectionId connection, Way& way) {
@@ -242,7 +270,9 @@ void UdpTransport::Core::take_what_came() {
     if (event->number == timer_mark) {
       ask_again();
     } else if (event->number == server_mark) {
-      reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) { take_from_client(source, datagram); });
+      constexpr int batches_max = 256;  // then the next poll goes on: who sends without pause must not keep us
+      for (int batch = 0; batch < batches_max; ++batch)
+        if (!reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) { take_from_client(source, datagram); })) break;
     } else if (const auto connection = static_cast<ConnectionId>(event->number); Way* way = find(connection)) {
       reader_.read(way->file.number(), [&](const SocketAddress&, Bytes datagram) {
         if (Way* still = find(connection)) take_from_server(connection, *still, datagram);

@@ -18,8 +18,8 @@ class UdpTransport::Core final : private TransportListener {
   std::uint16_t listen(const std::string& address, std::uint16_t port);
   ConnectionId connect(const std::string& address, std::uint16_t port);
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
-  void send(ConnectionId connection, std::span<const Bytes> parts) { tcp_.send(connection, parts); }
-  void close(ConnectionId connection) { tcp_.close(connection); }
+  void send(ConnectionId connection, std::span<const Bytes> parts);
+  void close(ConnectionId connection);
   TransportCounters counters(ConnectionId connection) const;
   TransportCounters totals() const;
   UdpCounters udp_counters() const;
@@ -44,6 +44,8 @@ class UdpTransport::Core final : private TransportListener {
     std::size_t head_size = 0;
     std::uint64_t up_key = 0, down_key = 0, nonce = 0;
     SocketAddress address;                        ///< the other end's
+    std::vector<std::vector<std::byte>> held;     ///< writes of a server that must not come before its greeting
+    std::size_t held_bytes = 0;
     File file;                                    ///< a client's own socket, connected
   };
   /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one connection.
@@ -58,6 +60,7 @@ class UdpTransport::Core final : private TransportListener {
   Way* find(ConnectionId connection) const { return connection < ways_.size() ? ways_[connection].get() : nullptr; }
   Way& add(ConnectionId connection);
   Bytes take_head(ConnectionId connection, Bytes bytes);
+  void let_go(ConnectionId connection, Way& way);
   void greet(ConnectionId connection, Way& way);
   void open_socket(ConnectionId connection, Way& way);
   void forward(ConnectionId connection, Bytes bytes);

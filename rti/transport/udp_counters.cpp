@@ -9,6 +9,7 @@ TransportCounters UdpTransport::Core::counters(ConnectionId connection) const {
   TransportCounters counters = tcp_.counters(connection);
   if (connection >= tallies_.size()) return counters;
   const Tally& tally = tallies_[connection];
+  if (const Way* way = find(connection)) counters.queued_bytes += way->held_bytes;
   const auto without = [](std::uint64_t count, std::uint64_t ours) { return count > ours ? count - ours : 0; };
   counters.writes = without(counters.writes, tally.stream_sent > 0 ? 1 : 0);
   counters.segments_sent = without(counters.segments_sent, tally.stream_sent > 0 ? 1 : 0);

@@ -1,4 +1,4 @@
-// The kits: in-process, TCP, the virtual network, and the sample of docs/transports.md.
+// The kits: in-process, TCP, UDP, shared memory, the virtual network, and the sample of docs/transports.md.
 #include "tests/rti/transport_kits.h"
 
 #include <unistd.h>
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "rti/transport/in_process.h"
+#include "rti/transport/shared_memory.h"
 #include "rti/transport/tcp.h"
 #include "rti/transport/udp.h"
 #include "rti/transport/virtual_network.h"
@@ -137,6 +138,36 @@ class SampleKit final : public TransportKit {
   std::optional<sample::UnixTransport> server_;
 };
 
+class SharedMemoryKit final : public TransportKit {
+ public:
+  SharedMemoryKit() {
+    connections = 200;
+    restart_server();
+  }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override {
+    ensure_file_limit(2 * connections + 64);
+    return client_.connect(name_);
+  }
+  ConnectionId connect_to_nobody() override { return client_.connect(name_ + "-nobody"); }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(settings_);
+    server_->listen(name_);
+  }
+  bool limit_queue(std::size_t queue_max) override {
+    settings_.queue_max = queue_max;
+    return true;
+  }
+
+ private:
+  const std::string name_ = unique_name();
+  SharedMemorySettings settings_;
+  SharedMemoryTransport client_;
+  std::optional<SharedMemoryTransport> server_;
+};
+
 template <class Kit>
 KitChoice choice(const std::string& name) {
   return {name, [] { return std::make_unique<Kit>(); }};
@@ -145,7 +176,7 @@ KitChoice choice(const std::string& name) {
 }  // namespace
 
 std::vector<KitChoice> transport_kits() {
-  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SampleKit>("sample")};
+  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SharedMemoryKit>("shared_memory"), choice<SampleKit>("sample")};
 }
 
 }  // namespace rink::rti::testing

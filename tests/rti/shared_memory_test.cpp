@@ -1,0 +1,223 @@
+// Shared memory between processes: what a busy connection costs, killed and hostile peers, and that nothing is left behind.
+#include "rti/transport/shared_memory.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <set>
+
+#include "rti/transport/readiness.h"
+#include "rti/transport/shared_ring.h"
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string own_name(const char* what) { return std::string("test-") + what + "-" + std::to_string(getpid()); }
+
+struct Tale final : TransportListener {
+  std::vector<ConnectionId> open;
+  std::vector<std::byte> bytes;
+  int closed = 0;
+  CloseReason reason = CloseReason::closed_by_us;
+  void on_open(ConnectionId connection) override { open.push_back(connection); }
+  void on_bytes(ConnectionId, Bytes received) override { bytes.insert(bytes.end(), received.begin(), received.end()); }
+  void on_close(ConnectionId, CloseReason why, const std::string&) override { ++closed, reason = why; }
+};
+
+/// A connected pair in one process.
+struct Pair {
+  explicit Pair(const std::string& name, const SharedMemorySettings& settings = {}) : server(settings), client(settings) {
+    server.listen(name);
+    connection = client.connect(name);
+    for (int i = 0; i < 1000 && (here.open.empty() || there.open.empty()); ++i) server.poll({}, here), client.poll({}, there);
+  }
+  SharedMemoryTransport server, client;
+  Tale here, there;
+  ConnectionId connection = 0;
+};
+
+TEST(SharedMemory, ABusyConnectionWakesNobody) {
+  Pair pair(own_name("busy"));
+  const auto words = bytes_of("24 bytes of an interaction");
+  const Bytes part = words;
+  for (int i = 0; i < 10'000; ++i) {
+    pair.client.send(pair.connection, std::span(&part, 1));
+    pair.server.poll({}, pair.here);
+  }
+  EXPECT_EQ(pair.here.bytes.size(), 10'000 * words.size());
+  EXPECT_EQ(pair.client.wakes() + pair.server.wakes() + pair.server.sleeps(), 0u);
+}
+
+TEST(SharedMemory, AStreamManyTimesAsLongAsTheRingArrivesInOrder) {
+  Pair pair(own_name("long"), {.ring_size = 4096, .queue_max = 1u << 20, .spin = {}});
+  std::mt19937 random(5);
+  std::vector<std::byte> sent;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::byte> piece(random() % 6000);
+    for (std::byte& byte : piece) byte = static_cast<std::byte>(random());
+    const Bytes part = piece;
+    pair.client.send(pair.connection, std::span(&part, 1));
+    sent.insert(sent.end(), piece.begin(), piece.end());
+    while (pair.client.counters(pair.connection).queued_bytes > 100'000) pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
+  }
+  for (int i = 0; i < 100'000 && pair.here.bytes.size() < sent.size(); ++i) pair.server.poll({}, pair.here), pair.client.poll({}, pair.there);
+  EXPECT_TRUE(pair.here.bytes == sent);
+}
+
+/// Runs `serve` in a process of its own, for it to be killed.
+template <class Serve>
+pid_t fork_off(Serve serve) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  serve();
+  _exit(0);
+}
+
+TEST(SharedMemory, AKilledProcessIsNoticedWithinASecondAndLeavesNothingBehind) {
+  const std::string name = own_name("killed");
+  const auto shared_before = std::distance(std::filesystem::directory_iterator("/dev/shm"), std::filesystem::directory_iterator());
+  for (const bool is_server_killed : {false, true}) {
+    SharedMemoryTransport ours;
+    Tale tale;
+    if (!is_server_killed) ours.listen(name);
+    const pid_t child = fork_off([&] {
+      SharedMemoryTransport theirs;
+      Tale told;
+      if (is_server_killed) theirs.listen(name);
+      else theirs.connect(name);
+      for (;;) theirs.poll(10ms, told);
+    });
+    for (int i = 0; i < 500 && tale.open.empty(); ++i) {
+      if (is_server_killed && tale.closed == static_cast<int>(i)) ours.connect(name);  // until it listens
+      ours.poll(10ms, tale);
+    }
+    ASSERT_EQ(tale.open.size(), 1u);
+    const int closed_before = tale.closed;
+    kill(child, SIGKILL);
+    const auto start = std::chrono::steady_clock::now();
+    while (tale.closed == closed_before && std::chrono::steady_clock::now() - start < 5s) ours.poll(100ms, tale);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 1s);
+    EXPECT_EQ(tale.reason, CloseReason::closed_by_peer);
+    waitpid(child, nullptr, 0);
+    EXPECT_NO_THROW(SharedMemoryTransport().listen(name + (is_server_killed ? "" : "-other"))) << "the address is free at once";
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator("/dev/shm"), std::filesystem::directory_iterator()), shared_before);
+}
+
+/// A client by hand, with the server's memory in its hands.
+struct HostileClient {
+  explicit HostileClient(const std::string& name) : socket(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+    const std::string whole = "rink/" + name;
+    std::memcpy(address.sun_path + 1, whole.data(), whole.size());
+    EXPECT_EQ(::connect(socket.number(), reinterpret_cast<sockaddr*>(&address), static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + whole.size())), 0);
+  }
+  void take_memory() {
+    std::array<std::byte, 64> greeting;
+    iovec vector{greeting.data(), greeting.size()};
+    alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))];
+    msghdr header{};
+    header.msg_iov = &vector;
+    header.msg_iovlen = 1;
+    header.msg_control = control;
+    header.msg_controllen = sizeof control;
+    ASSERT_GT(::recvmsg(socket.number(), &header, 0), 0);
+    int number = -1;
+    std::memcpy(&number, CMSG_DATA(CMSG_FIRSTHDR(&header)), sizeof number);
+    memory_file = File(number);
+    states = static_cast<SharedRingState*>(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, number, 0));
+    ASSERT_NE(states, MAP_FAILED);
+  }
+  ~HostileClient() {
+    if (states != nullptr) ::munmap(states, 4096);
+  }
+  File socket, memory_file;
+  SharedRingState* states = nullptr;
+};
+
+TEST(SharedMemory, ImpossiblePositionsEndTheConnectionAndNothingElse) {
+  const std::string name = own_name("hostile");
+  SharedMemoryTransport server;
+  Tale tale;
+  server.listen(name);
+  SharedMemoryTransport honest;
+  Tale told;
+  const ConnectionId friendly = honest.connect(name);
+  std::mt19937_64 random(7);
+  for (int trick = 0; trick < 60; ++trick) {
+    const int closed_before = tale.closed;
+    HostileClient client(name);
+    for (int i = 0; i < 8; ++i) server.poll({}, tale);
+    client.take_memory();
+    EXPECT_NE(::ftruncate(client.memory_file.number(), 0), 0) << "its size is sealed";
+    const std::uint64_t position = trick % 3 == 0 ? ~std::uint64_t{0} : (256u * 1024u + 1u) + random() % (std::uint64_t{1} << 62);
+    if (trick % 2 == 0) client.states[0].written = position;
+    else client.states[1].read = position;
+    const auto words = bytes_of("for the hostile one");
+    const Bytes part = words;
+    server.send(tale.open.back(), std::span(&part, 1));
+    for (int i = 0; i < 8; ++i) server.poll({}, tale);
+    EXPECT_EQ(tale.closed, closed_before + 1);
+    EXPECT_EQ(tale.reason, CloseReason::failed);
+  }
+  tale.bytes.clear();
+  const auto words = bytes_of("still here");
+  const Bytes part = words;
+  honest.send(friendly, std::span(&part, 1));
+  for (int i = 0; i < 100 && tale.bytes.size() < words.size(); ++i) honest.poll({}, told), server.poll({}, tale);
+  EXPECT_EQ(text_of(tale.bytes), "still here");
+}
+
+TEST(SharedMemory, RandomNonsenseInTheSharedPageNeverCrashesTheServer) {
+  const std::string name = own_name("nonsense");
+  SharedMemoryTransport server;
+  Tale tale;
+  server.listen(name);
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HostileClient client(name);
+    for (int i = 0; i < 8; ++i) server.poll({}, tale);
+    client.take_memory();
+    for (int i = 0; i < 50; ++i) {
+      SharedRingState& state = client.states[random() % 2];
+      const std::uint64_t choice = random() % 4, value = random() >> (random() % 64);
+      if (choice == 0) state.written = value;
+      if (choice == 1) state.read = value;
+      if (choice == 2) state.reader_sleeps = static_cast<std::uint32_t>(value);
+      if (choice == 3) state.writer_waits = static_cast<std::uint32_t>(value);
+      const Bytes part = Bytes(tale.bytes).first(std::min<std::size_t>(tale.bytes.size(), 100));
+      server.send(tale.open.back(), std::span(&part, 1));
+      server.poll({}, tale);
+    }
+    tale.bytes.clear();
+  }
+  SUCCEED();
+}
+
+TEST(SharedMemory, ASecondListenerOfANameIsToldSo) {
+  SharedMemoryTransport first, second;
+  first.listen(own_name("twice"));
+  try {
+    second.listen(own_name("twice"));
+    FAIL();
+  } catch (const TransportError& error) {
+    EXPECT_EQ(error.kind(), TransportError::Kind::in_use);
+  }
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
