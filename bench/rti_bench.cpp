@@ -304,7 +304,7 @@ void rink_join(benchmark::State& state) {
 
 BENCHMARK(raw_round_trip)->Name("rti/round_trip/raw_asio")->UseRealTime()->MinTime(0.5);
 BENCHMARK(rink_round_trip)->Name("rti/round_trip/rink")->UseRealTime()->MinTime(0.5);
-BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_asio")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
+BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_tcp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_tick_send)->Name("rti/tick_send/rink")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_join)->Name("rti/join")->ArgName("federates")->Arg(1000)->UseRealTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 

@@ -71,6 +71,13 @@ void BotCrowd::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
   after_receiving(bot);
 }
 
+void BotCrowd::on_datagram(rti::ConnectionId connection, rti::Bytes datagram) {
+  Bot& bot = *bots_[bot_of_connection_[connection]];
+  if (bot.is_lost) return;
+  bot.client.ambassador().receive_datagram(datagram);
+  after_receiving(bot);
+}
+
 void BotCrowd::after_receiving(Bot& bot) {
   const rti::Stamp& newest = bot.client.mirror().newest();
   if (bot.client.state() == game::Client::State::playing && newest.tag != 0 && newest.tag != bot.seen_tag) {
@@ -108,10 +115,7 @@ void BotCrowd::lose(Bot& bot, const std::string& why, game::ExitStatus status) {
 }
 
 void BotCrowd::send(Bot& bot) {
-  const rti::Bytes bytes = bot.client.ambassador().outgoing();
-  if (bytes.empty()) return;
-  transport_.send(bot.connection, std::array{bytes});
-  bot.client.ambassador().clear_outgoing();
+  rti::send_waiting(bot.client.ambassador(), transport_, bot.connection);
 }
 
 void BotCrowd::run_once() {
@@ -252,7 +256,7 @@ void BotCrowd::sample_when_due() {
 
 std::vector<std::uint64_t> BotCrowd::received_by_bot() const {
   std::vector<std::uint64_t> bytes;
-  for (const std::unique_ptr<Bot>& bot : bots_) bytes.push_back(transport_.counters(bot->connection).bytes_received);
+  for (const std::unique_ptr<Bot>& bot : bots_) bytes.push_back(rti::with_datagrams(transport_.counters(bot->connection)).bytes_received);
   return bytes;
 }
 
@@ -282,7 +286,7 @@ std::size_t BotCrowd::client_memory_bytes() const {
 CrowdTraffic BotCrowd::total_traffic() const {
   CrowdTraffic sum;
   for (const std::unique_ptr<Bot>& bot : bots_) {
-    const rti::TransportCounters counters = transport_.counters(bot->connection);
+    const rti::TransportCounters counters = rti::with_datagrams(transport_.counters(bot->connection));
     sum.bytes_sent += counters.bytes_sent;
     sum.bytes_received += counters.bytes_received;
     sum.segments_sent += counters.segments_sent;

@@ -15,6 +15,8 @@
 #include "loadgen/bots_witness.h"
 #include "loadgen/live_player.h"
 #include "loadgen/probe.h"
+#include "rti/transport/federate_link.h"
+#include "rti/transport/socket_transport.h"
 #include "rti/transport/transport.h"
 
 namespace rink::loadgen {
@@ -106,6 +108,7 @@ class BotCrowd : public rti::TransportListener {
 
   void on_open(rti::ConnectionId connection) override;
   void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override;
+  void on_datagram(rti::ConnectionId connection, rti::Bytes datagram) override;
   void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override;
 
   void after_receiving(Bot& bot);

@@ -21,7 +21,7 @@
 #include "loadgen/bots_report.h"
 #include "loadgen/process.h"
 #include "game/players/random_plan.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/socket_transport.h"
 
 namespace {
 
@@ -29,7 +29,7 @@ using namespace rink;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd";
+  std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd", transport = "tcp";
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
@@ -81,6 +81,9 @@ void add_options(CLI::App& app, Options& options) {
   app.description("Any number of headless clients in one process, each with its own connection, pressing keys by a plan fixed before the run or as they see fit.");
   app.footer(std::string("Example: rink bots --connect 127.0.0.1:4711 --count 100 --seed 7 --duration 30 --report bots.json\n\n") + game::exit_status_help);
   app.add_option("--connect", options.connect, "server, as ADDRESS:PORT")->capture_default_str();
+  app.add_option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
+      ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
+      ->capture_default_str();
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
   app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
   app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
@@ -140,8 +143,8 @@ game::ExitStatus play(const Options& options) {
   game::require_writable("--evidence", options.evidence);
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const std::vector<game::InputEvent> plan = plan_of(options);
-  rti::ensure_file_limit(options.count + 64u);
-  rti::TcpTransport transport;
+  rti::ensure_file_limit((options.transport == "udp" ? 2u : 1u) * options.count + 64u);
+  rti::SocketTransport transport(options.transport);
   const loadgen::BotCrowdSettings settings{.federation = options.federation,
                                            .first = options.first,
                                            .view_fraction = options.view_fraction,
@@ -150,7 +153,7 @@ game::ExitStatus play(const Options& options) {
                                            .warm_up_s = options.warm_up_s,
                                            .duration_s = options.duration_s,
                                            .players = players_of(options)};
-  loadgen::BotCrowd crowd(fom, transport, settings, options.count, plan, now_s);
+  loadgen::BotCrowd crowd(fom, transport.get(), settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });

@@ -196,6 +196,8 @@ class Ambassador {
   bool receive(Bytes bytes);
   /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is counted and otherwise ignored.
   void receive_datagram(Bytes datagram);
+  /// There is a way for datagrams: from now on the order of frames matters too, for an older datagram may come after them.
+  void expect_datagrams() { has_datagrams_ = true; }
   /// The datagram that must go to the RTI, if not empty, and that it has gone. `clear_outgoing` says no word of it.
   Bytes outgoing_datagram() const { return outgoing_datagram_; }
   void clear_outgoing_datagram();
@@ -322,7 +324,7 @@ class Ambassador {
   std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
   std::vector<std::byte> outgoing_datagram_, cut_values_;
   std::uint32_t frames_heard_ = 0;                     ///< from the one that let us in
-  bool has_datagrams_ = false;                         ///< one has come: the order of frames matters too
+  bool has_datagrams_ = false;                         ///< one may come
   double receipts_due_since_ = 0.0;
 
   double now_ = 0.0, last_heard_ = 0.0, last_said_ = 0.0;

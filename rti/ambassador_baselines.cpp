@@ -45,6 +45,7 @@ bool Ambassador::take_deltas(Reader& reader) {
       continue;
     }
     ++counters_.updates_reflected;
+    if (has_datagrams_) arrivals_.accept({object}, message.object_class, AttributeSet{*attribute}, order_of_frame(frames_heard_));
     callbacks_.reflect_attribute_values({object}, AttributeSet{*attribute}, decoded_, stamp);
     if (phase_ != Phase::joined) return true;
   }

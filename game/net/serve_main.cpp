@@ -30,7 +30,7 @@
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
 #include "rti/wire/message.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/socket_transport.h"
 
 namespace {
 
@@ -58,19 +58,20 @@ class ServerProcess {
  public:
   ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
       : options_(options),
+        sockets_(options.transport),
         serving_(fom, scene,
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay), .hosting = hosting_of(options)},
                  federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
         server_(serving_.server()),
         records_(options.record) {
-    serving_.host().add(tcp_);
+    serving_.host().add(sockets_.get());
     if (!options.evidence.empty())
       serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
   }
 
   /// Says at once if matches cannot be recorded; they can be played all the same.
   void try_records();
-  std::uint16_t listen() { return tcp_.listen(options_.address, options_.port); }
+  std::uint16_t listen() { return sockets_.listen(options_.address, options_.port); }
 
   /// Waits for the players and the start barrier; false if they did not all come in time.
   bool start();
@@ -83,7 +84,7 @@ class ServerProcess {
   /// What the run was and what its filter decided, if `--evidence` asked for it.
   std::optional<game::ServerEvidence> evidence(const game::SceneChoice& choice) const;
   /// What the connections carried from first to last.
-  rti::TransportCounters totals() const { return tcp_.totals(); }
+  rti::TransportCounters totals() const { return sockets_.totals(); }
 
  private:
   static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
@@ -95,7 +96,7 @@ class ServerProcess {
   void keep_records();
 
   game::ServeOptions options_;
-  rti::TcpTransport tcp_;
+  rti::SocketTransport sockets_;
   game::Serving serving_;
   game::Server& server_;
   game::MatchRecords records_;
@@ -175,12 +176,12 @@ void ServerProcess::run() {
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
-      costs_.begin = counts_of(serving_, tcp_.totals());
+      costs_.begin = counts_of(serving_, sockets_.totals());
     }
     tick(number);
   }
   costs_.span_s = is_measuring ? now_s() - measured_from_s : 0.0;
-  costs_.end = counts_of(serving_, tcp_.totals());
+  costs_.end = counts_of(serving_, sockets_.totals());
 }
 
 void ServerProcess::end() {

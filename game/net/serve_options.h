@@ -9,11 +9,12 @@
 #include "game/net/flags.h"
 #include "game/replication/update_policy.h"
 #include "rti/federation_execution.h"
+#include "rti/transport/socket_transport.h"
 
 namespace rink::game {
 
 struct ServeOptions {
-  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", hosted;
+  std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", transport = "tcp", hosted;
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
@@ -34,6 +35,9 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
   app.add_option("--address", options.address, "to listen on")->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
+  app.add_option("--transport", options.transport, "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients of this machine only, by the port")
+      ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
+      ->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();

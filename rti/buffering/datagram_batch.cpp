@@ -29,7 +29,8 @@ void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_
 
 }  // namespace
 
-void CutRun::cut(const UpdateRun& run, std::size_t size_max) {
+void CutRun::cut(const UpdateRun& run, std::size_t part_max) {
+  size_max = part_max;
   parts.clear();
   bytes.clear();
   handles.clear();
@@ -67,7 +68,7 @@ const CutRun& DatagramBatch::cut(std::size_t index, const UpdateRun& run, std::s
     cuts_.resize(index + 1);
     is_cut_.resize(index + 1);
   }
-  if (!is_cut_[index]) {
+  if (!is_cut_[index] || cuts_[index].size_max != size_max) {
     cuts_[index].cut(run, size_max);
     is_cut_[index] = true;
     ++cut_count_;

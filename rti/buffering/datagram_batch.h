@@ -17,9 +17,10 @@ class CutRun {
     std::size_t from, to;          ///< of `bytes`
     std::size_t first, last;       ///< of `handles`
   };
-  /// `size_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
-  void cut(const UpdateRun& run, std::size_t size_max);
+  /// `part_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
+  void cut(const UpdateRun& run, std::size_t part_max);
   bool fits = false;
+  std::size_t size_max = 0;
   std::vector<Part> parts;
   std::vector<std::byte> bytes;
   std::vector<std::uint32_t> handles;
@@ -30,7 +31,7 @@ class DatagramBatch {
  public:
   /// A new flush: runs may have changed.
   void begin_tick() { cut_count_ = 0; }
-  /// Run number `index` of the tick, cut when it is first asked for.
+  /// Run number `index` of the tick, cut when it is first asked for, and again for another size.
   const CutRun& cut(std::size_t index, const UpdateRun& run, std::size_t size_max);
 
   /// A new destination, whose datagrams have bodies of at most `size_max` bytes.

@@ -5,6 +5,21 @@
 
 namespace rink::rti {
 
+void send_waiting(Ambassador& ambassador, Transport& transport, ConnectionId connection) {
+  const std::size_t datagram_max = transport.datagram_max(connection);
+  if (datagram_max > 0) ambassador.expect_datagrams();
+  if (const Bytes datagram = ambassador.outgoing_datagram(); !datagram.empty()) {
+    const Datagram whole{datagram, {}};
+    if (datagram_max >= datagram.size()) transport.send_datagrams(connection, std::span(&whole, 1));
+    transport.push();
+    ambassador.clear_outgoing_datagram();
+  }
+  const Bytes waiting = ambassador.outgoing();
+  if (waiting.empty()) return;
+  transport.send(connection, std::span(&waiting, 1));
+  ambassador.clear_outgoing();
+}
+
 void FederateLink::received(Bytes bytes) {
   if (!ambassador_.receive(bytes)) transport_.close(connection_);
 }
@@ -20,16 +35,7 @@ void FederateLink::flush(double now) {
   if (is_finished_) return;
   ambassador_.advance_clock(now);
   if (!is_open_) return;
-  if (const Bytes datagram = ambassador_.outgoing_datagram(); !datagram.empty()) {
-    const Datagram whole{datagram, {}};
-    if (transport_.datagram_max(connection_) >= datagram.size()) transport_.send_datagrams(connection_, std::span(&whole, 1));
-    transport_.push();
-    ambassador_.clear_outgoing_datagram();
-  }
-  const Bytes waiting = ambassador_.outgoing();
-  if (waiting.empty()) return;
-  transport_.send(connection_, std::span(&waiting, 1));
-  ambassador_.clear_outgoing();
+  send_waiting(ambassador_, transport_, connection_);
 }
 
 void FederateLink::close() {

@@ -8,6 +8,9 @@
 
 namespace rink::rti {
 
+/// Sends what waits of the ambassador: its bytes as one write, its datagram if there is a way for it.
+void send_waiting(Ambassador& ambassador, Transport& transport, ConnectionId connection);
+
 /// One ambassador on one connection. Many links may share one transport through a `FederateLinks`.
 class FederateLink {
  public:

@@ -223,6 +223,7 @@ ConnectionId SharedMemoryTransport::connect(const std::string& name) { return co
 void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
 void SharedMemoryTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
 void SharedMemoryTransport::close(ConnectionId connection) { core_->close(connection); }
+std::size_t SharedMemoryTransport::queued_bytes(ConnectionId connection) const { return core_->counters(connection).queued_bytes; }
 TransportCounters SharedMemoryTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
 TransportCounters SharedMemoryTransport::totals() const { return core_->totals(); }
 std::uint64_t SharedMemoryTransport::sleeps() const { return core_->sleeps; }

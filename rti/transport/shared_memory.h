@@ -34,6 +34,7 @@ class SharedMemoryTransport final : public Transport {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
   /// Sum over all connections that ever were.
   TransportCounters totals() const;

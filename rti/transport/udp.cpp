@@ -337,7 +337,10 @@ void UdpTransport::Core::take_data(ConnectionId connection, Bytes datagram) {
 
 std::size_t UdpTransport::Core::datagram_max(ConnectionId connection) const {
   const Way* way = find(connection);
-  return way != nullptr && way->state == Way::State::open ? payload_max - prefix_size : 0;
+  if (way == nullptr) return 0;
+  // A client expects datagrams as soon as it has proven its address; those that it sends before it knows that it has are lost.
+  const bool is_open = way->state == Way::State::open || (way->role == Way::Role::client && way->state == Way::State::confirm);
+  return is_open ? payload_max - prefix_size : 0;
 }
 
 void UdpTransport::Core::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {

@@ -39,6 +39,7 @@ class UdpTransport final : public Transport {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;

@@ -20,6 +20,7 @@ class UdpTransport::Core final : private TransportListener {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
   void send(ConnectionId connection, std::span<const Bytes> parts);
   void close(ConnectionId connection);
+  std::size_t queued_bytes(ConnectionId connection) const;
   TransportCounters counters(ConnectionId connection) const;
   TransportCounters totals() const;
   UdpCounters udp_counters() const;

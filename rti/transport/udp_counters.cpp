@@ -24,6 +24,11 @@ TransportCounters UdpTransport::Core::counters(ConnectionId connection) const {
   return counters;
 }
 
+std::size_t UdpTransport::Core::queued_bytes(ConnectionId connection) const {
+  const Way* way = find(connection);
+  return tcp_.queued_bytes(connection) + (way == nullptr ? 0 : way->held_bytes);
+}
+
 TransportCounters UdpTransport::Core::totals() const {
   TransportCounters sum = tcp_.totals();
   for (const Tally& tally : tallies_) {
@@ -54,6 +59,7 @@ ConnectionId UdpTransport::connect(const std::string& address, std::uint16_t por
 void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
 void UdpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
 void UdpTransport::close(ConnectionId connection) { core_->close(connection); }
+std::size_t UdpTransport::queued_bytes(ConnectionId connection) const { return core_->queued_bytes(connection); }
 TransportCounters UdpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
 std::size_t UdpTransport::datagram_max(ConnectionId connection) const { return core_->datagram_max(connection); }
 void UdpTransport::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) { core_->send_datagrams(connection, datagrams); }
