@@ -125,6 +125,8 @@ class Ambassador {
   void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
   /// To all who subscribe to the class without a region, or with one that overlaps one of these.
   void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp);
+  /// Asks the owners of attributes whose regions overlap those of a pair, or that are of the default region, for an update: `provide_attribute_value_update`.
+  void request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
   DimensionHandle get_dimension_handle(std::string_view name) const;
   const std::string& get_dimension_name(DimensionHandle dimension) const;
   std::optional<std::uint32_t> get_dimension_upper_bound(DimensionHandle dimension) const;
@@ -239,6 +241,8 @@ class Ambassador {
   bool take_execution(Reader& reader);
   bool take_report(Reader& reader, MessageKind kind);
   bool take_federate(Reader& reader, std::uint8_t kind);
+  bool take_digest(Reader& reader);
+  bool take_provide_update(Reader& reader);
   bool take_object(Reader& reader, std::uint8_t kind);
   bool take_scope(Reader& reader, std::uint8_t kind);
   bool take_stamp(Reader& reader);
@@ -246,6 +250,7 @@ class Ambassador {
   bool take_interaction(Reader& reader);
   void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added);
   void subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_added);
+  void say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action);
   void subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_added);
   void write_numbers(std::span<const RegionHandle> regions);
   template <class Tell>
@@ -296,6 +301,7 @@ class Ambassador {
   ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
   RegionBook regions_;
   std::vector<Range> ranges_;
+  std::string fom_difference_;  ///< from the federation's model, if the RTI told
   std::vector<std::byte> region_records_;
   std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< that we were told of, and ourselves first
   std::vector<std::string> announced_points_;  ///< synchronisation points that we have not achieved yet

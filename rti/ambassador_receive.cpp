@@ -1,7 +1,10 @@
 // What the RTI says to a federate: each message is checked and becomes a callback.
+#include <algorithm>
 #include <cassert>
 
 #include "rti/ambassador.h"
+#include "rti/fom/fom_digest.h"
+#include "rti/wire/fom_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/time_messages.h"
 #include "rti/wire/update_block.h"
@@ -51,7 +54,7 @@ bool Ambassador::take_message(Reader& reader) {
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
   if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name)) return postpone(reader, name);
-  if (name == MessageKind::joined || name == MessageKind::refused) return take_membership(reader, kind);
+  if (name == MessageKind::joined || name == MessageKind::refused || name == MessageKind::fom_digest) return take_membership(reader, kind);
   if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
   if (name >= MessageKind::federation_report && name <= MessageKind::report_end) return take_report(reader, name);
   if (phase_ != Phase::joined) return false;
@@ -66,6 +69,7 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::remove_object: return take_object(reader, kind);
     case MessageKind::in_scope:
     case MessageKind::out_of_scope: return take_scope(reader, kind);
+    case MessageKind::provide_update: return take_provide_update(reader);
     case MessageKind::stamp: return take_stamp(reader);
     case MessageKind::updates: return take_updates(reader);
     case MessageKind::begin_keyframe: return take_keyframe(reader);
@@ -83,11 +87,13 @@ bool Ambassador::take_message(Reader& reader) {
 
 bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
   if (phase_ != Phase::joining) return false;
+  if (static_cast<MessageKind>(kind) == MessageKind::fom_digest) return take_digest(reader);
   if (static_cast<MessageKind>(kind) == MessageKind::refused) {
     RefusedMessage message;
     if (!exchange(reader, message)) return false;
     phase_ = Phase::ended;
-    callbacks_.join_refused(static_cast<Refusal>(message.refusal), message.why);
+    const std::string why = std::string(message.why) + (fom_difference_.empty() ? "" : ": " + fom_difference_);
+    callbacks_.join_refused(static_cast<Refusal>(message.refusal), why);
     return true;
   }
   JoinedMessage message;
@@ -98,6 +104,16 @@ bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
   object_block_ = message.object_block;
   frames_heard_ = 1;
   callbacks_.joined(federate_);
+  return true;
+}
+
+/// What follows is the refusal.
+bool Ambassador::take_digest(Reader& reader) {
+  FomDigestMessage message;
+  if (!exchange(reader, message)) return false;
+  std::vector<FomDigestEntry> entries(message.count);
+  std::ranges::copy(message.entries, std::as_writable_bytes(std::span(entries)).begin());
+  fom_difference_ = difference(fom_, entries);
   return true;
 }
 

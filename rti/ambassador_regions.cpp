@@ -6,6 +6,24 @@
 
 namespace rink::rti {
 
+/// Gathers the pairs, as many as a message takes at once, in `region_records_`, and calls `tell(count)` for each message.
+template <class Tell>
+void Ambassador::for_each_message(std::span<const AttributeRegions> pairs, Tell tell) {
+  region_records_.clear();
+  Writer writer(region_records_);
+  std::uint16_t count = 0;
+  for (const AttributeRegions& each : pairs)
+    for (const RegionHandle region : each.regions) {
+      AttributeRegionRecord record{each.attributes.bits, regions_.number(region)};
+      exchange(writer, record);
+      if (++count < regions_per_message_max) continue;
+      tell(count);
+      region_records_.clear();
+      count = 0;
+    }
+  if (count > 0) tell(count);
+}
+
 RegionHandle Ambassador::create_region() {
   const RegionHandle region = regions_.create({});
   if (region) say(CreateRegionMessage{regions_.number(region)});
@@ -106,7 +124,26 @@ void Ambassador::subscribe_with_regions(ObjectClassHandle object_class, std::spa
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
     for (const RegionHandle region : each.regions) regions_.subscribe(object_class, each.attributes, region, is_added);
-  const RegionAction action = is_added ? RegionAction::add : RegionAction::remove;
+  say_regional_class(object_class, pairs, is_added ? RegionAction::add : RegionAction::remove);
+}
+
+void Ambassador::request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
+  check(object_class, pairs);
+  say_regional_class(object_class, pairs, RegionAction::request_update);
+}
+
+bool Ambassador::take_provide_update(Reader& reader) {
+  ProvideUpdateMessage message;
+  if (!exchange(reader, message)) return false;
+  const KnownObject* known = find({message.object});
+  const AttributeSet attributes{message.attributes};
+  if (known == nullptr) return is_ours({message.object});  // deleted meanwhile
+  if (!fom_.attributes(ObjectClassHandle{known->object_class}).includes(attributes)) return false;
+  callbacks_.provide_attribute_value_update({message.object}, attributes);
+  return true;
+}
+
+void Ambassador::say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
   for_each_message(pairs, [&](std::uint16_t count) {
     say(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value), static_cast<std::uint8_t>(action), count, region_records_});
   });
@@ -140,24 +177,6 @@ void Ambassador::write_numbers(std::span<const RegionHandle> regions) {
     std::uint32_t number = regions_.number(region);
     writer.number(number);
   }
-}
-
-/// Gathers the pairs, as many as a message takes at once, in `region_records_`, and calls `tell(count)` for each message.
-template <class Tell>
-void Ambassador::for_each_message(std::span<const AttributeRegions> pairs, Tell tell) {
-  region_records_.clear();
-  Writer writer(region_records_);
-  std::uint16_t count = 0;
-  for (const AttributeRegions& each : pairs)
-    for (const RegionHandle region : each.regions) {
-      AttributeRegionRecord record{each.attributes.bits, regions_.number(region)};
-      exchange(writer, record);
-      if (++count < regions_per_message_max) continue;
-      tell(count);
-      region_records_.clear();
-      count = 0;
-    }
-  if (count > 0) tell(count);
 }
 
 ObjectClassHandle Ambassador::own_class(ObjectHandle object) {

@@ -72,6 +72,8 @@ class FederateAmbassador {
   virtual void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes /*values*/, const Stamp&) {}
   virtual void attributes_in_scope(ObjectHandle) {}
   virtual void attributes_out_of_scope(ObjectHandle) {}
+  /// Somebody asks for these attributes of an own object.
+  virtual void provide_attribute_value_update(ObjectHandle, AttributeSet) {}
   virtual void remove_object_instance(ObjectHandle) {}
 
   virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/, FederateHandle /*sender*/, const Stamp&) {}

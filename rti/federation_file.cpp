@@ -61,13 +61,30 @@ class FederationReader {
     return nodes;
   }
 
+  std::vector<std::string> modules(const toml::table& table) const {
+    const toml::node* list = table.get("fom");
+    if (list == nullptr || !list->is_array()) return {resolved(word(table, "fom"))};
+    std::vector<std::string> paths;
+    for (const toml::node& each : *list->as_array()) {
+      const auto path = each.value_exact<std::string>();
+      if (!path || path->empty()) fail(each.source(), "key 'fom' must be a text that is not empty, or a list of such");
+      paths.push_back(resolved(*path));
+      if (std::count(paths.begin(), paths.end(), paths.back()) > 1) fail(each.source(), "key 'fom' names '" + *path + "' twice");
+    }
+    if (paths.empty()) fail(list->source(), "key 'fom' must name at least one module");
+    return paths;
+  }
+
+  std::string resolved(const std::filesystem::path& path) const {
+    return path.is_absolute() ? path.string() : (std::filesystem::path(source_).parent_path() / path).string();
+  }
+
   FederationFile file(const toml::table& table) const {
     allow(table, {"federation", "fom", "address", "port", "node"});
     FederationFile file;
     file.federation = word(table, "federation");
     if (file.federation.size() > 255) fail(table.get("federation")->source(), "key 'federation' must be at most 255 bytes long");
-    const std::filesystem::path fom = word(table, "fom");
-    file.fom = fom.is_absolute() ? fom.string() : (std::filesystem::path(source_).parent_path() / fom).string();
+    file.fom = modules(table);
     const toml::node* list = table.get("node");
     if (list != nullptr && table.contains("address")) fail(table.get("address")->source(), "key 'address' and a list of [[node]] exclude each other");
     if (list != nullptr && table.contains("port")) fail(table.get("port")->source(), "key 'port' and a list of [[node]] exclude each other");

@@ -5,6 +5,8 @@
 #include "rti/distribution/interest.h"
 #include "rti/federation_parts.h"
 #include "rti/federation_time.h"
+#include "rti/fom/fom_digest.h"
+#include "rti/wire/fom_messages.h"
 
 namespace rink::rti {
 
@@ -85,7 +87,17 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
 
 void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal) {
   expel(connection, Violation::refused, ResignReason::misbehaved, to_string(refusal));
+  if (refusal == Refusal::wrong_fom) return tell_difference();
   farewells_.back().bytes = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), to_string(refusal)});
+}
+
+/// Refuses for another model; the federate finds out from the digest where its own differs.
+void FederationExecution::Parts::tell_difference() {
+  std::vector<std::byte>& bytes = farewells_.back().bytes;
+  const std::vector<FomDigestEntry> entries = digest(fom_);
+  if (entries.size() <= FomDigestMessage::count_max) bytes = framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()), std::as_bytes(std::span(entries))});
+  const std::vector<std::byte> refused = framed(RefusedMessage{static_cast<std::uint8_t>(Refusal::wrong_fom), to_string(Refusal::wrong_fom)});
+  bytes.insert(bytes.end(), refused.begin(), refused.end());
 }
 
 std::uint32_t FederationExecution::Parts::take_federate_slot() {

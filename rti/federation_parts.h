@@ -75,6 +75,7 @@ class FederationExecution::Parts {
   void advance_clock(double now);
   Outcome join(ConnectionId connection, Reader& reader);
   void refuse(ConnectionId connection, Refusal refusal);
+  void tell_difference();
   void admit(ConnectionId connection, const JoinMessage& message);
   std::uint32_t take_federate_slot();
   std::uint32_t take_block();
@@ -130,6 +131,7 @@ class FederationExecution::Parts {
   Outcome associate_region(std::uint32_t slot, Reader& reader);
   Outcome associate_regions(std::uint32_t slot, Reader& reader);
   Outcome take_regional_class(std::uint32_t slot, Reader& reader);
+  void request_update(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region);
   Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
   Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 

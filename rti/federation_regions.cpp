@@ -130,10 +130,26 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
     const AttributeSet attributes{pair.attributes};
     const RegionHandle region{pair.region};
     if (!all.includes(attributes) || !interest_.has_region(slot, region)) return Violation::unknown_name;
+    const auto action = static_cast<RegionAction>(message.action);
+    if (action == RegionAction::request_update) return request_update(slot, {message.object_class}, attributes, region), std::nullopt;
     const AttributeSet now = interest_.subscribed(slot, message.object_class, region);
-    interest_.subscribe(slot, message.object_class, message.action != 0 ? now | attributes : now.without(attributes), region);
+    interest_.subscribe(slot, message.object_class, action == RegionAction::add ? now | attributes : now.without(attributes), region);
     return std::nullopt;
   });
+}
+
+/// Looks at every object: it is asked for seldom, and what overlaps is not kept.
+void FederationExecution::Parts::request_update(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
+  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
+    const Object& asked = objects_[object];
+    if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class)) continue;
+    const AttributeSet due = interest_.overlapping(slot, region, object, attributes);
+    for (std::uint32_t owner = 0; owner < federates_.size(); ++owner) {
+      if (owner == slot || !federates_[owner].is_joined || (asked.owner != no_federate && asked.owner != owner)) continue;
+      const AttributeSet owned = due & ownership_.owned_by(owner, object);
+      if (!owned.is_empty()) say(federates_[owner].tail, ProvideUpdateMessage{asked.handle.value, owned.bits});
+    }
+  }
 }
 
 Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot, Reader& reader) {

@@ -299,15 +299,16 @@ game::ExitStatus show_status(const game::ServeOptions& options) {
 
 game::ExitStatus serve(game::ServeOptions& options) {
   if (!options.status.empty()) return show_status(options);
-  std::string federation = "rink", fom_path = game::fom_file();
+  std::string federation = "rink";
+  std::vector<std::string> fom_modules{game::fom_file()};
   if (!options.federation_file.empty()) {
     const rti::FederationFile file = rti::load_federation_file(options.federation_file);
     federation = file.federation;
-    fom_path = file.fom;
+    fom_modules = file.fom;
     options.address = file.nodes.front().address;
     options.port = file.nodes.front().port;
   }
-  const rti::Fom fom = game::load_rink_fom(fom_path);
+  const rti::Fom fom = game::load_rink_fom(fom_modules);
   const game::SceneChoice choice{.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
   const game::Scene scene = game::chosen_scene(choice);
   require_room(options, scene);

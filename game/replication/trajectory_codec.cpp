@@ -247,8 +247,10 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
   return true;
 }
 
-rti::Fom load_rink_fom(const std::string& path) {
-  rti::Fom fom = rti::Fom::load(path);
+rti::Fom load_rink_fom(const std::string& path) { return load_rink_fom(std::span(&path, 1)); }
+
+rti::Fom load_rink_fom(std::span<const std::string> paths) {
+  rti::Fom fom = rti::Fom::load(paths);
   fom.use_codec("Trajectory", std::make_shared<TrajectoryCodec>());
   fom.use_codec("Input", std::make_shared<InputCodec>());
   return fom;

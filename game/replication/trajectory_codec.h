@@ -1,6 +1,7 @@
 // The form in which trajectories travel: bits instead of nine doubles, and not a bit of difference.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "rti/fom/attribute_codec.h"
@@ -20,5 +21,7 @@ class TrajectoryCodec : public rti::AttributeCodec {
 
 /// The object model at `path` with Rink's codecs. Throws rti::FileError.
 rti::Fom load_rink_fom(const std::string& path);
+/// The same from several modules, which merge.
+rti::Fom load_rink_fom(std::span<const std::string> paths);
 
 }  // namespace rink::game

@@ -64,6 +64,7 @@ class CallbackQueue final : public FederateAmbassador {
   }
   void attributes_in_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_in_scope>(object); }
   void attributes_out_of_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_out_of_scope>(object); }
+  void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::provide_attribute_value_update>(object, attributes); }
   void remove_object_instance(ObjectHandle object) override { put<&FederateAmbassador::remove_object_instance>(object); }
   void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const Stamp& stamp) override {
     put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);

@@ -20,6 +20,9 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
+/// What is to be done with a class's attributes and the regions that follow.
+enum class RegionAction : std::uint8_t { remove, add, request_update };
+
 /// A change that a federate has not been told yet.
 struct ScopeEvent {
   ObjectSlot slot;

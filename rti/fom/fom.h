@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -15,14 +16,29 @@
 #include "rti/fom/quantised_codec.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
+#include "rti/hla_error.h"
 
 namespace rink::rti {
 
 /// A FOM or federation file that can't be used; `what` names file, line, element or key, and what is allowed.
 class FileError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit FileError(const std::string& what, HlaError error = HlaError::error_reading_fdd) : std::runtime_error(what), error_(error) {}
+  /// CouldNotOpenFDD, ErrorReadingFDD, or InconsistentFDD for modules that contradict each other.
+  HlaError error() const { return error_; }
+
+ private:
+  HlaError error_;
 };
+
+/// The text of one OMT XML module. `source` stands for the file's name in errors; only the standard's own may define names that begin with HLA.
+struct FomModule {
+  std::string xml;
+  std::string source;
+  bool is_standard = false;
+};
+/// Throws `FileError`.
+FomModule read_fom_module(const std::string& path);
 
 enum class Transportation : std::uint8_t { reliable, best_effort };
 enum class Order : std::uint8_t { receive, timestamp };
@@ -73,6 +89,9 @@ class Fom {
   static Fom load(const std::string& path);
   /// The same from text; `source` stands for the file's name in errors.
   static Fom parse(std::string_view xml, const std::string& source);
+  /// Several modules merged: what they repeat must be the same; classes are numbered as they first appear.
+  static Fom load(std::span<const std::string> paths);
+  static Fom parse(std::span<const FomModule> modules);
 
   /// From now on values of `data_type` travel as `codec` says. Before the model is handed to anybody. Throws `FileError` if no attribute is of that type.
   void use_codec(std::string_view data_type, std::shared_ptr<const AttributeCodec> codec);

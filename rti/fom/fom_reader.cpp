@@ -1,4 +1,4 @@
-// Reads an IEEE 1516.2 OMT XML file; every complaint names file, line and element.
+// Reads IEEE 1516.2 OMT XML modules into one model; every complaint names file, line and element.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "rti/fom/fom.h"
+#include "rti/fom/fom_modules.h"
 #include "rti/fom/quantisation_reader.h"
 
 namespace rink::rti {
@@ -33,31 +34,36 @@ constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLA
 
 }  // namespace
 
-/// One reading of one file.
+/// One reading of one or several modules.
 class FomReader {
  public:
-  FomReader(std::string_view xml, const std::string& source) : xml_(xml), source_(source) {}
+  explicit FomReader(std::span<const FomModule> modules) : modules_(modules) {}
   Fom read();
 
  private:
   using Node = pugi::xml_node;
   using Size = std::optional<std::uint32_t>;  ///< nothing: it varies
 
-  [[noreturn]] void fail(std::ptrdiff_t offset, const std::string& what) const;
-  [[noreturn]] void fail(const Node& node, const std::string& what) const { fail(node.offset_debug(), what); }
-  static std::string path(const Node& node);
-  std::string text(const Node& node, const char* child) const;
-  std::string text_or(const Node& node, const char* child, const char* otherwise) const;
+  using Group = FomModules::Group;
 
-  void read_types(const Node& model);
+  [[noreturn]] void fail(const Node& node, const std::string& what) const { modules_.fail(node, what); }
+  static std::string path(const Node& node) { return FomModules::path(node); }
+  std::string text(const Node& node, const char* child) const { return modules_.text(node, child); }
+  std::string text_or(const Node& node, const char* child, const char* otherwise) const { return modules_.text_or(node, child, otherwise); }
+
+  void read_types();
   void declare(const Node& node);
+  void check_types();
+  void check_variants(const Node& node);
+  void check_enumerators(const Node& node);
   Size size_of(const std::string& type, const Node& user);
   Size size_of_array(const Node& node);
   Size size_of_record(const Node& node);
-  void read_dimensions(const Node& model);
-  void read_object_class(const Node& node, ObjectClassHandle parent);
+  void read_dimensions();
+  void read_object_class(const Group& group, ObjectClassHandle parent);
+  void require_same_members(const Node& first, const Node& second, const char* element) const;
   Attribute read_attribute(const Node& node, const ObjectClass& owner);
-  void read_interaction_class(const Node& node, InteractionClassHandle parent);
+  void read_interaction_class(const Group& group, InteractionClassHandle parent);
   void quantise(Attribute& attribute, bool is_periodic);
   Parameter read_parameter(const Node& node, const InteractionClass& owner);
   Transportation transportation(const Node& node) const;
@@ -66,9 +72,7 @@ class FomReader {
   std::optional<std::uint32_t> upper_bound(const Node& node) const;
   std::uint64_t hash() const;
 
-  std::string_view xml_;
-  std::string source_;
-  pugi::xml_document document_;
+  FomModules modules_;
   std::map<std::string, Node> declared_types_;
   std::map<std::string, Size> sizes_;
   std::set<std::string> being_sized_;
@@ -76,57 +80,67 @@ class FomReader {
   Fom fom_;
 };
 
-void FomReader::fail(std::ptrdiff_t offset, const std::string& what) const {
-  const auto end = xml_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(xml_.size()));
-  throw FileError(source_ + ":" + std::to_string(1 + std::count(xml_.begin(), end, '\n')) + ": " + what);
-}
-
-std::string FomReader::path(const Node& node) {
-  const char* name = node.child("name").text().get();
-  return "<" + std::string(node.name()) + ">" + (*name != 0 ? " '" + std::string(name) + "'" : std::string());
-}
-
-std::string FomReader::text(const Node& node, const char* child) const {
-  const Node found = node.child(child);
-  std::istringstream words(found.text().get());
-  std::string word, rest;
-  if (!found) fail(node, path(node) + " lacks <" + child + ">");
-  if (!(words >> word) || words >> rest) fail(found, std::string("<") + child + "> of " + path(node) + " must hold one word, not '" + found.text().get() + "'");
-  return word;
-}
-
-std::string FomReader::text_or(const Node& node, const char* child, const char* otherwise) const { return node.child(child) ? text(node, child) : otherwise; }
-
 Fom FomReader::read() {
-  const pugi::xml_parse_result result = document_.load_buffer(xml_.data(), xml_.size());
-  if (!result) fail(result.offset, std::string("no well-formed XML: ") + result.description());
-  const Node model = document_.document_element();
-  if (std::string_view(model.name()) != "objectModel") fail(model, "the outermost element must be <objectModel>, not <" + std::string(model.name()) + ">");
-  fom_.name_ = model.child("modelIdentification").child("name").text().get();
-  read_types(model);
-  read_dimensions(model);
-  const Node objects = model.child("objects"), interactions = model.child("interactions");
-  if (!objects) fail(model, "<objectModel> lacks <objects>");
-  for (const Node& node : objects.children("objectClass")) read_object_class(node, {});
-  for (const Node& node : interactions.children("interactionClass")) read_interaction_class(node, {});
+  for (const Node& model : modules_.models())
+    if (fom_.name_.empty()) fom_.name_ = model.child("modelIdentification").child("name").text().get();
+  read_types();
+  read_dimensions();
+  const std::vector<Node> objects = modules_.sections("objects"), interactions = modules_.sections("interactions");
+  if (objects.empty()) fail(modules_.models().front(), "<objectModel> lacks <objects>");
+  for (const Group& group : modules_.groups(objects, "objectClass")) read_object_class(group, {});
+  for (const Group& group : modules_.groups(interactions, "interactionClass")) read_interaction_class(group, {});
+  check_types();
   fom_.hash_ = hash();
   return std::move(fom_);
 }
 
 void FomReader::declare(const Node& node) {
   const std::string name = text(node, "name");
-  if (!declared_types_.emplace(name, node).second) fail(node, "data type '" + name + "' is declared twice");
+  const auto [known, is_new] = declared_types_.emplace(name, node);
+  if (!is_new && known->second.root() == node.root()) fail(node, "data type '" + name + "' is declared twice");
+  if (!is_new) modules_.require_same(known->second, node, "");
+  const bool is_known = std::ranges::find(basic_types, name, &BasicType::name) != basic_types.end() || std::ranges::find(varying_types, name) != varying_types.end();
+  if (!is_known) modules_.require_unreserved({name, {known->second, node}});
 }
 
-void FomReader::read_types(const Node& model) {
-  for (const Node& group : model.child("dataTypes").children()) {
-    const std::string_view name = group.name();
-    if (name != "basicDataRepresentations" && name != "simpleDataTypes" && name != "enumeratedDataTypes" && name != "arrayDataTypes" &&
-        name != "fixedRecordDataTypes" && name != "variantRecordDataTypes")
-      fail(group, "<dataTypes> holds <" + std::string(name) +
-                      ">; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes");
-    for (const Node& node : group.children()) declare(node);
+void FomReader::read_types() {
+  for (const Node& section : modules_.sections("dataTypes"))
+    for (const Node& group : section.children()) {
+      const std::string_view name = group.name();
+      if (name != "basicDataRepresentations" && name != "simpleDataTypes" && name != "enumeratedDataTypes" && name != "arrayDataTypes" &&
+          name != "fixedRecordDataTypes" && name != "variantRecordDataTypes")
+        fail(group, "<dataTypes> holds <" + std::string(name) +
+                        ">; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes");
+      for (const Node& node : group.children()) declare(node);
+    }
+}
+
+/// Those that no attribute or parameter uses too: another module may.
+void FomReader::check_types() {
+  for (const auto& [name, node] : declared_types_) {
+    const Size size = size_of(name, node);
+    const auto standard = std::ranges::find(basic_types, name, &BasicType::name);
+    if (standard != basic_types.end() && size != standard->size) fail(node, path(node) + " is the standard's, whose size is " + std::to_string(8 * standard->size) + " bits");
+    if (std::string_view(node.name()) == "variantRecordData") check_variants(node);
+    if (std::string_view(node.name()) == "enumeratedData") check_enumerators(node);
   }
+}
+
+void FomReader::check_variants(const Node& node) {
+  const std::string discriminant = text(node, "dataType");
+  const auto found = declared_types_.find(discriminant);
+  if (discriminant != "HLAboolean" && (found == declared_types_.end() || std::string_view(found->second.name()) != "enumeratedData"))
+    fail(node.child("dataType"), path(node) + " must have an enumerated data type as its discriminant, not '" + discriminant + "'");
+  for (const Node& alternative : node.children("alternative")) {
+    text(alternative, "enumerator");
+    if (text_or(alternative, "dataType", "NA") != "NA") size_of(text(alternative, "dataType"), alternative);
+  }
+}
+
+void FomReader::check_enumerators(const Node& node) {
+  std::set<std::string> names;
+  for (const Node& enumerator : node.children("enumerator"))
+    if (!names.insert(text(enumerator, "name")).second) fail(enumerator, path(enumerator) + " of " + path(node) + " is declared twice");
 }
 
 FomReader::Size FomReader::size_of(const std::string& type, const Node& user) {
@@ -152,7 +166,9 @@ FomReader::Size FomReader::size_of(const std::string& type, const Node& user) {
     size = size_of_array(node);
   } else if (kind == "fixedRecordData") {
     size = size_of_record(node);
-  }  // a variant record's size varies
+  } else if (kind != "variantRecordData") {  // whose size varies
+    fail(node, "<dataTypes> holds " + path(node) + "; allowed are basicData, simpleData, enumeratedData, arrayData, fixedRecordData, variantRecordData");
+  }
   being_sized_.erase(type);
   sizes_[type] = size;
   return size;
@@ -182,12 +198,13 @@ FomReader::Size FomReader::size_of_record(const Node& node) {
   return size;
 }
 
-void FomReader::read_dimensions(const Node& model) {
-  for (const Node& node : model.child("dimensions").children("dimension")) {
-    const std::string name = text(node, "name");
-    if (fom_.dimension(name)) fail(node, "dimension '" + name + "' is declared twice");
+void FomReader::read_dimensions() {
+  for (const Group& group : modules_.groups(modules_.sections("dimensions"), "dimension")) {
+    const Node& node = group.nodes.front();
+    modules_.require_unreserved(group);
+    for (const Node& other : group.nodes) modules_.require_same(node, other, "");
     if (fom_.dimensions_.size() == dimension_max) fail(node, "more than " + std::to_string(dimension_max) + " dimensions");
-    fom_.dimensions_.push_back({name, upper_bound(node)});
+    fom_.dimensions_.push_back({group.name, upper_bound(node)});
   }
 }
 
@@ -225,22 +242,41 @@ Order FomReader::order(const Node& node) const {
   fail(node.child("order"), path(node) + " has order '" + name + "'; allowed are Receive, TimeStamp");
 }
 
-void FomReader::read_object_class(const Node& node, ObjectClassHandle parent) {
+/// Members of a class that two modules define in full must be the same, in whatever order; the first module's order counts.
+void FomReader::require_same_members(const Node& first, const Node& second, const char* element) const {
+  const std::array both{first, second};
+  const std::string of = " of class '" + text(first, "name") + "'";
+  for (const Group& group : modules_.groups(both, element)) {
+    const Node& node = group.nodes.front();
+    if (group.nodes.size() == 2) modules_.require_same(node, group.nodes.back(), of);
+    else if (node.parent() == second) modules_.conflict(node, path(node) + of + " is missing in the definition", first);
+    else modules_.conflict(second, path(node) + of + " is missing here; it is defined", node);
+  }
+}
+
+void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) {
+  const Node& front = group.nodes.front();
+  if (parent || group.name != "HLAobjectRoot") modules_.require_unreserved(group);
   ObjectClass object_class;
-  object_class.name = text(node, "name");
+  object_class.name = group.name;
   object_class.parent = parent;
   if (parent) object_class.attributes = fom_.at(parent).attributes;
-  for (const ObjectClass& other : fom_.object_classes_)
-    if (other.parent == parent && other.name == object_class.name) fail(node, path(node) + " is declared twice");
-  for (const Node& attribute : node.children("attribute")) {
+  Node definition;
+  for (const Node& node : group.nodes) {
+    if (!node.child("attribute")) continue;  // a scaffold
+    if (definition) require_same_members(definition, node, "attribute");
+    else definition = node;
+  }
+  for (const Node& attribute : definition.children("attribute")) {
     if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
+    modules_.require_unreserved({text(attribute, "name"), {attribute}});
     object_class.attributes.push_back(read_attribute(attribute, object_class));
-    if (object_class.attributes.size() > named_attribute_max) fail(attribute, path(node) + " has more than " + std::to_string(named_attribute_max) + " attributes");
+    if (object_class.attributes.size() > named_attribute_max) fail(attribute, path(front) + " has more than " + std::to_string(named_attribute_max) + " attributes");
   }
   const ObjectClassHandle handle{static_cast<std::uint32_t>(fom_.object_classes_.size())};
-  if (handle.value == class_max) fail(node, "more than " + std::to_string(class_max) + " object classes");
+  if (handle.value == class_max) fail(front, "more than " + std::to_string(class_max) + " object classes");
   fom_.object_classes_.push_back(std::move(object_class));
-  for (const Node& child : node.children("objectClass")) read_object_class(child, handle);
+  for (const Group& child : modules_.groups(group.nodes, "objectClass")) read_object_class(child, handle);
 }
 
 Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) {
@@ -273,24 +309,34 @@ void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   }
 }
 
-void FomReader::read_interaction_class(const Node& node, InteractionClassHandle parent) {
+void FomReader::read_interaction_class(const Group& group, InteractionClassHandle parent) {
+  const Node& front = group.nodes.front();
+  if (parent || group.name != "HLAinteractionRoot") modules_.require_unreserved(group);
   InteractionClass interaction_class;
-  interaction_class.name = text(node, "name");
+  interaction_class.name = group.name;
   interaction_class.parent = parent;
   if (parent) interaction_class.parameters = fom_.at(parent).parameters;
-  for (const InteractionClass& other : fom_.interaction_classes_)
-    if (other.parent == parent && other.name == interaction_class.name) fail(node, path(node) + " is declared twice");
-  interaction_class.transportation = transportation(node);
-  interaction_class.order = order(node);
-  interaction_class.dimensions = dimensions_of(node);
-  for (const Node& parameter : node.children("parameter")) {
+  Node definition;
+  for (const Node& node : group.nodes) {
+    if (!node.child("parameter") && !node.child("transportation") && !node.child("order") && !node.child("dimensions")) continue;  // a scaffold
+    if (!definition) definition = node;
+    if (definition == node) continue;
+    require_same_members(definition, node, "parameter");
+    for (const char* element : {"transportation", "order", "dimensions"}) modules_.require_same_child(definition, node, element);
+  }
+  if (!definition) definition = front;
+  interaction_class.transportation = transportation(definition);
+  interaction_class.order = order(definition);
+  interaction_class.dimensions = dimensions_of(definition);
+  for (const Node& parameter : definition.children("parameter")) {
+    modules_.require_unreserved({text(parameter, "name"), {parameter}});
     interaction_class.parameters.push_back(read_parameter(parameter, interaction_class));
-    if (interaction_class.parameters.size() > parameter_max) fail(parameter, path(node) + " has more than " + std::to_string(parameter_max) + " parameters");
+    if (interaction_class.parameters.size() > parameter_max) fail(parameter, path(front) + " has more than " + std::to_string(parameter_max) + " parameters");
   }
   const InteractionClassHandle handle{static_cast<std::uint32_t>(fom_.interaction_classes_.size())};
-  if (handle.value == class_max) fail(node, "more than " + std::to_string(class_max) + " interaction classes");
+  if (handle.value == class_max) fail(front, "more than " + std::to_string(class_max) + " interaction classes");
   fom_.interaction_classes_.push_back(std::move(interaction_class));
-  for (const Node& child : node.children("interactionClass")) read_interaction_class(child, handle);
+  for (const Group& child : modules_.groups(group.nodes, "interactionClass")) read_interaction_class(child, handle);
 }
 
 Parameter FomReader::read_parameter(const Node& node, const InteractionClass& owner) {
@@ -333,13 +379,29 @@ std::uint64_t FomReader::hash() const {
   return value;
 }
 
-Fom Fom::parse(std::string_view xml, const std::string& source) { return FomReader(xml, source).read(); }
+Fom Fom::parse(std::span<const FomModule> modules) {
+  if (modules.empty()) throw FileError("a federation object model needs at least one module", HlaError::could_not_open_fdd);
+  return FomReader(modules).read();
+}
 
-Fom Fom::load(const std::string& path) {
+Fom Fom::parse(std::string_view xml, const std::string& source) {
+  const FomModule module{std::string(xml), source};
+  return parse(std::span(&module, 1));
+}
+
+FomModule read_fom_module(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw FileError(path + ": can't be read; expected an OMT XML file");
-  return parse(text.str(), path);
+  if (!file || !(text << file.rdbuf())) throw FileError(path + ": can't be read; expected an OMT XML file", HlaError::could_not_open_fdd);
+  return {text.str(), path};
+}
+
+Fom Fom::load(const std::string& path) { return load(std::span(&path, 1)); }
+
+Fom Fom::load(std::span<const std::string> paths) {
+  std::vector<FomModule> modules;
+  for (const std::string& path : paths) modules.push_back(read_fom_module(path));
+  return parse(modules);
 }
 
 }  // namespace rink::rti

@@ -47,12 +47,13 @@ enum class MessageKind : std::uint8_t {
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
   time_regulation_enabled = 82, time_constrained_enabled = 83, time_advance_grant = 84, timed_delivery = 85, request_retraction = 86, time_bounds = 87,
+  fom_digest = 112, provide_update = 113,
   // federation management
   synchronization_point_registered = 74, federation_execution_created = 75, federation_execution_destroyed = 76, federation_execution = 77,
   federation_report = 78, federate_report = 79, report_end = 80,
   // baselines
   begin_keyframe = 110, deltas = 111,
-  // free: 81 federation management, 88 to 91 time, 92 to 103 ownership, 104 to 109 objects and declarations, 112 to 117 regions, 118 to 127 the connection
+  // free: 81 federation management, 88 to 91 time, 92 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 118 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.

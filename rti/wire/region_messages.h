@@ -51,9 +51,6 @@ bool exchange(Stream& stream, AttributeRegionRecord& record) {
   return stream.number(record.attributes) && stream.range(record.region, region_max - 1);
 }
 
-/// What is to be done with a class and the pairs that follow.
-enum class RegionAction : std::uint8_t { remove, add, request_update };
-
 /// `pairs` are, `count` times, attributes u32 and region u32.
 struct RegionalClassMessage {
   static constexpr MessageKind kind = MessageKind::regional_class;
@@ -95,6 +92,17 @@ template <class Stream>
 bool exchange(Stream& stream, AssociateRegionsMessage& message) {
   return stream.number(message.object) && stream.range(message.is_associated, 1) && stream.range(message.count, regions_per_message_max) &&
          stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
+}
+
+/// Asks an owner for attributes of its object.
+struct ProvideUpdateMessage {
+  static constexpr MessageKind kind = MessageKind::provide_update;
+  std::uint32_t object = 0;
+  std::uint32_t attributes = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, ProvideUpdateMessage& message) {
+  return stream.varint(message.object) && stream.varint(message.attributes);
 }
 
 /// An interaction for those who subscribe without a region, or with one that overlaps one of `regions` (u32 each).

@@ -105,11 +105,11 @@ constexpr const char* two_nodes =
 TEST(FederationFile, GivesOneAddressOrTheListOfNodes) {
   const FederationFile one = parse_federation_file(one_address, "games/rink.toml");
   EXPECT_EQ(one.federation, "rink");
-  EXPECT_EQ(one.fom, "games/rink.fom.xml");
+  EXPECT_EQ(one.fom, std::vector<std::string>{"games/rink.fom.xml"});
   ASSERT_EQ(one.nodes.size(), 1u);
   EXPECT_EQ(one.nodes[0].port, 7000);
   const FederationFile two = parse_federation_file(two_nodes, "rink.toml");
-  EXPECT_EQ(two.fom, "/etc/rink.fom.xml");
+  EXPECT_EQ(two.fom, std::vector<std::string>{"/etc/rink.fom.xml"});
   ASSERT_EQ(two.nodes.size(), 2u);
   EXPECT_EQ(two.nodes[1].address, "host-b");
 }

@@ -6,7 +6,9 @@
 #include <random>
 
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/fom_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/region_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
@@ -77,6 +79,25 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(RefusedMessage{static_cast<std::uint8_t>(u32()), dice.text()});
     expect_round_trip(FederateJoinedMessage{u32(), dice.text(), dice.text()});
     expect_round_trip(FederateResignedMessage{u32(), static_cast<std::uint8_t>(u32() % 3), dice.text(), dice.text()});
+  }
+}
+
+TEST(Message, OfRegionsReadsBackAsItWasWrittenAndNeverFromLess) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Dice dice{std::mt19937_64(seed), {}, {}};
+    const auto region = dice.number<std::uint32_t>() % region_max;
+    const auto object_class = dice.number<std::uint16_t>();
+    const auto count = static_cast<std::uint16_t>(dice.number<std::uint32_t>() % 5);
+    const std::vector<std::byte> records(count * RegionalClassMessage::pair_size), regions(count * sizeof(std::uint32_t)), ranges(count * ModifyRangesMessage::range_size);
+    expect_round_trip(CreateRegionOverMessage{region, std::uint64_t{1} << count});
+    expect_round_trip(ModifyRangesMessage{region, static_cast<std::uint8_t>(count), ranges});
+    expect_round_trip(RegionalClassMessage{object_class, static_cast<std::uint8_t>(count % 3), count, records});
+    expect_round_trip(RegionalInteractionMessage{object_class, static_cast<std::uint8_t>(count % 2), count, regions});
+    expect_round_trip(AssociateRegionsMessage{dice.number<std::uint32_t>(), static_cast<std::uint8_t>(count % 2), count, records});
+    expect_round_trip(InteractionWithinMessage{object_class, dice.stamp(), count, regions, dice.some(100)});
+    expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(), dice.number<std::uint32_t>()});
+    expect_round_trip(FomDigestMessage{count, records});
   }
 }
 

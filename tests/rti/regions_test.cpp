@@ -4,33 +4,10 @@
 #include <algorithm>
 #include <random>
 
-#include "rti/wire/region_messages.h"
-#include "tests/rti/rig.h"
+#include "tests/rti/airspace.h"
 
 namespace rink::rti::testing {
 namespace {
-
-/// An airspace: `Aircraft` over all four dimensions, of which `Channel` has an upper bound; `weight` has none.
-constexpr const char* airspace_xml = R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name>
-<objectClass><name>Aircraft</name>
-  <attribute><name>position</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
-  <attribute><name>radio</name><dataType>HLAfloat64LE</dataType><dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions></attribute>
-  <attribute><name>weight</name><dataType>HLAfloat64LE</dataType></attribute>
-</objectClass></objectClass></objects>
-<interactions><interactionClass><name>HLAinteractionRoot</name><interactionClass><name>Call</name>
-  <dimensions><dimension>X</dimension><dimension>Y</dimension><dimension>Altitude</dimension><dimension>Channel</dimension></dimensions>
-  <parameter><name>words</name><dataType>HLAoctet</dataType></parameter></interactionClass></interactionClass></interactions>
-<dimensions><dimension><name>Altitude</name></dimension><dimension><name>X</name></dimension><dimension><name>Channel</name><upperBound>6</upperBound></dimension><dimension><name>Y</name></dimension></dimensions>
-</objectModel>)";
-
-const Fom& airspace() {
-  static const Fom fom = Fom::parse(airspace_xml, "airspace.xml");
-  return fom;
-}
-const ObjectClassHandle aircraft = *airspace().object_class("Aircraft");
-const AttributeHandle where = *airspace().attribute(aircraft, "position"), radio = *airspace().attribute(aircraft, "radio"), weight = *airspace().attribute(aircraft, "weight");
-const InteractionClassHandle call = *airspace().interaction_class("Call");
-const DimensionHandle x = *airspace().dimension("X"), y = *airspace().dimension("Y"), altitude = *airspace().dimension("Altitude"), channel = *airspace().dimension("Channel");
 
 /// What a region is to the test: dimensions, and ranges as they were handed in and last committed.
 struct Area {
@@ -51,10 +28,8 @@ bool overlap(const Area& a, const Area& b) {
   return all;
 }
 
-/// Federates without transports: services in, callbacks out.
-struct Pilot {
-  Recorder heard;
-  Ambassador ambassador{airspace(), heard};
+/// A pilot and what it did, as far as overlap depends on it.
+struct Planner : Pilot {
   std::deque<Area> areas;
   std::map<std::uint32_t, std::map<std::uint32_t, AttributeSet>> updates;  ///< by object: attributes by the index of their area
   std::vector<ObjectHandle> objects;
@@ -63,51 +38,14 @@ struct Pilot {
   AttributeSet everywhere;
 };
 
-struct Post final : Outlet {
-  std::deque<Pilot>* pilots = nullptr;
-  int drops = 0;
-  void send(ConnectionId id, std::span<const Bytes> parts) override {
-    std::vector<std::byte> all;
-    for (const Bytes part : parts) all.insert(all.end(), part.begin(), part.end());
-    EXPECT_TRUE((*pilots)[id].ambassador.receive(all));
-  }
-  void drop(ConnectionId, std::string_view) override { ++drops; }
-};
-
-class Airspace {
+/// Pilots who move, subscribe and register at random.
+class Airspace : public Flights<Planner> {
  public:
-  Airspace(unsigned seed, int pilots, const FederationServices& services = {}) : random_(seed), execution_(airspace(), settings(), services) {
-    post_.pilots = &pilots_;
-    for (int i = 0; i < pilots; ++i) {
-      Pilot& pilot = pilots_.emplace_back();
-      execution_.connect(static_cast<ConnectionId>(i));
-      pilot.ambassador.join("rink", "pilot " + std::to_string(i), "test");
-    }
-    tick();
-    for (Pilot& pilot : pilots_) {
-      pilot.ambassador.publish_object_class_attributes(aircraft, airspace().attributes(aircraft));
-      pilot.ambassador.publish_interaction_class(call);
-    }
-  }
-  static FederationSettings settings() {
-    FederationSettings settings;
-    settings.filter = "region";
-    settings.filter_settings.world = {0.0, 0.0, 10.0, 10.0};
-    return settings;
-  }
-  void tick() {
-    for (ConnectionId id = 0; id < pilots_.size(); ++id) {
-      execution_.receive(id, pilots_[id].ambassador.outgoing());
-      pilots_[id].ambassador.clear_outgoing();
-    }
-    execution_.match();
-    execution_.flush(post_);
-    EXPECT_EQ(post_.drops, 0);
-  }
+  Airspace(unsigned seed, int pilots) : Flights(pilots), random_(seed) {}
   int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   bool by_chance(int in_ten) { return below(10) < in_ten; }
 
-  std::uint32_t add_area(Pilot& pilot) {
+  std::uint32_t add_area(Planner& pilot) {
     Area area;
     const std::uint64_t bits = 1 + random_() % 15;
     area.dimensions = DimensionSet(by_chance(4) ? DimensionSet{x, y}.bits : bits);
@@ -117,7 +55,7 @@ class Airspace {
     return static_cast<std::uint32_t>(pilot.areas.size() - 1);
   }
   /// Small whole numbers, so that ranges often touch.
-  void move(Pilot& pilot, Area& area) {
+  void move(Planner& pilot, Area& area) {
     area.dimensions.for_each([&](DimensionHandle each) {
       if (area.set.contains(each.value) && by_chance(4)) return;
       Range range{static_cast<double>(below(5)), 0.0};
@@ -134,7 +72,7 @@ class Airspace {
     const AttributeSet set(static_cast<std::uint32_t>(1 + below(3)));
     return set;  // position, radio or both
   }
-  void change_subscription(Pilot& pilot) {
+  void change_subscription(Planner& pilot) {
     const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
     const AttributeSet set = some_attributes();
     const AttributeRegions pair{set, {pilot.areas[area].handle}};
@@ -147,7 +85,7 @@ class Airspace {
       now = now.without(set);
     }
   }
-  void change_listening(Pilot& pilot) {
+  void change_listening(Planner& pilot) {
     const std::uint32_t area = pilot.areas.empty() || by_chance(3) ? add_area(pilot) : static_cast<std::uint32_t>(below(static_cast<int>(pilot.areas.size())));
     const auto found = std::ranges::find(pilot.calls, area);
     if (found == pilot.calls.end()) {
@@ -158,7 +96,7 @@ class Airspace {
       pilot.calls.erase(found);
     }
   }
-  void change_objects(Pilot& pilot) {
+  void change_objects(Planner& pilot) {
     if (pilot.objects.empty() || by_chance(4)) {
       const std::uint32_t area = add_area(pilot);
       const AttributeSet set = some_attributes();
@@ -188,7 +126,7 @@ class Airspace {
       now = now.without(set);
     }
   }
-  void change(Pilot& pilot) {
+  void change(Planner& pilot) {
     for (Area& area : pilot.areas)
       if (by_chance(4)) move(pilot, area);
     if (by_chance(5)) change_subscription(pilot);
@@ -201,7 +139,7 @@ class Airspace {
   }
 
   /// The standard's answer: which attributes of `object` are in scope for `pilot`.
-  static AttributeSet due(const Pilot& owner, ObjectHandle object, const Pilot& pilot) {
+  static AttributeSet due(const Planner& owner, ObjectHandle object, const Planner& pilot) {
     AttributeSet set = pilot.everywhere;
     for (const AttributeHandle attribute : {where, radio, weight}) {
       bool has_region = false, is_inside = false;
@@ -217,9 +155,9 @@ class Airspace {
     return set;
   }
   void expect_scope_is_due() {
-    for (const Pilot& owner : pilots_)
+    for (const Planner& owner : pilots())
       for (const ObjectHandle object : owner.objects)
-        for (const Pilot& pilot : pilots_) {
+        for (const Planner& pilot : pilots()) {
           if (&pilot == &owner) continue;
           const auto known = pilot.heard.objects.find(object.value);
           const bool is_in_scope = known != pilot.heard.objects.end() && known->second.is_in_scope;
@@ -228,14 +166,14 @@ class Airspace {
   }
   /// Each owner says all of each object; each pilot must hear exactly the attributes that are due.
   void expect_updates_are_due(float value) {
-    for (Pilot& owner : pilots_)
+    for (Planner& owner : pilots())
       for (const ObjectHandle object : owner.objects) owner.ambassador.update_attribute_values(object, AttributeSet{where, radio, weight}, values_of(double{value}, double{value}, double{value}), {});
-    for (Pilot& pilot : pilots_)
+    for (Planner& pilot : pilots())
       for (auto& [object, known] : pilot.heard.objects) known.values.clear();
     tick();
-    for (const Pilot& owner : pilots_)
+    for (const Planner& owner : pilots())
       for (const ObjectHandle object : owner.objects)
-        for (const Pilot& pilot : pilots_) {
+        for (const Planner& pilot : pilots()) {
           if (&pilot == &owner) continue;
           AttributeSet heard;
           const auto known = pilot.heard.objects.find(object.value);
@@ -245,16 +183,16 @@ class Airspace {
         }
   }
   void expect_calls_are_due() {
-    for (Pilot& sender : pilots_) {
+    for (Planner& sender : pilots()) {
       if (sender.areas.empty()) continue;
       std::vector<std::uint32_t> areas{static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size())))};
       if (by_chance(5)) areas.push_back(static_cast<std::uint32_t>(below(static_cast<int>(sender.areas.size()))));
       std::vector<RegionHandle> regions;
       for (const std::uint32_t area : areas) regions.push_back(sender.areas[area].handle);
-      for (Pilot& pilot : pilots_) pilot.heard.interactions.clear();
+      for (Planner& pilot : pilots()) pilot.heard.interactions.clear();
       sender.ambassador.send_interaction_with_regions(call, values_of(std::uint8_t{1}), regions, {});
       tick();
-      for (const Pilot& pilot : pilots_) {
+      for (const Planner& pilot : pilots()) {
         bool is_due = false;
         for (const std::uint32_t area : areas)
           for (const std::uint32_t listened : pilot.calls) is_due |= overlap(sender.areas[area], pilot.areas[listened]);
@@ -263,17 +201,12 @@ class Airspace {
     }
   }
   void step() {
-    for (Pilot& pilot : pilots_) change(pilot);
+    for (Planner& pilot : pilots()) change(pilot);
     tick();
   }
-  FederationExecution& execution() { return execution_; }
-  std::deque<Pilot>& pilots() { return pilots_; }
 
  private:
   std::mt19937 random_;
-  FederationExecution execution_;
-  std::deque<Pilot> pilots_;
-  Post post_;
 };
 
 TEST(Regions, ScopeAndInteractionsFollowTheStandardsDefinitionInRandomFederations) {
@@ -328,7 +261,7 @@ TEST(Regions, UnchangedRegionsCostNothing) {
   for (int step = 0; step < 20; ++step) space.step();
   const DistributionCounters before = space.execution().distribution().counters();
   const im::FilterCounters filtered = space.execution().filter().counters();
-  for (Pilot& pilot : space.pilots())
+  for (Planner& pilot : space.pilots())
     for (const Area& area : pilot.areas)
       if (!area.committed.empty()) pilot.ambassador.commit_region_modifications(area.handle);
   space.tick();

@@ -1,0 +1,92 @@
+// Digests of models and their comparison.
+#include "rti/fom/fom_digest.h"
+
+#include <algorithm>
+
+namespace rink::rti {
+
+namespace {
+
+std::uint32_t hash_of(const std::string& text) {
+  std::uint32_t hash = 2166136261u;
+  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
+  return hash;
+}
+
+struct Element {
+  std::string name, content;
+};
+
+std::string number(std::uint64_t value) { return " " + std::to_string(value); }
+
+/// Each class's path from the root: two classes may share a name.
+template <class Class>
+std::string path_of(const std::vector<Class>& classes, std::size_t index) {
+  std::string path = classes[index].name;
+  for (auto parent = classes[index].parent; parent; parent = classes[parent.value].parent) path = classes[parent.value].name + "." + path;
+  return path;
+}
+
+/// What an inherited member is, its first owner says.
+template <class Class, class Members>
+std::size_t inherited_count(const std::vector<Class>& classes, const Class& each, Members members) {
+  return each.parent ? (classes[each.parent.value].*members).size() : 0;
+}
+
+void add_objects(const Fom& fom, std::vector<Element>& elements) {
+  const auto& classes = fom.object_classes();
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const std::string name = "object class '" + path_of(classes, i) + "'";
+    elements.push_back({name, ""});
+    for (std::size_t k = inherited_count(classes, classes[i], &ObjectClass::attributes); k < classes[i].attributes.size(); ++k) {
+      const Attribute& each = classes[i].attributes[k];
+      elements.push_back({"attribute '" + each.name + "' of " + name, each.data_type + number(each.size.value_or(0xffffffffu)) + number(static_cast<std::uint64_t>(each.transportation)) +
+                                                                          number(static_cast<std::uint64_t>(each.order)) + number(each.dimensions.bits) +
+                                                                          (each.codec ? std::string(each.codec->name()) : "") + (each.baselines ? " baselines" : "")});
+    }
+  }
+}
+
+void add_interactions(const Fom& fom, std::vector<Element>& elements) {
+  const auto& classes = fom.interaction_classes();
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const InteractionClass& own = classes[i];
+    const std::string name = "interaction class '" + path_of(classes, i) + "'";
+    elements.push_back({name, number(static_cast<std::uint64_t>(own.transportation)) + number(static_cast<std::uint64_t>(own.order)) + number(own.dimensions.bits)});
+    for (std::size_t k = inherited_count(classes, own, &InteractionClass::parameters); k < own.parameters.size(); ++k)
+      elements.push_back({"parameter '" + own.parameters[k].name + "' of " + name, own.parameters[k].data_type + number(own.parameters[k].size.value_or(0xffffffffu))});
+  }
+}
+
+std::vector<Element> elements_of(const Fom& fom) {
+  std::vector<Element> elements;
+  add_objects(fom, elements);
+  add_interactions(fom, elements);
+  for (const Dimension& each : fom.dimensions()) elements.push_back({"dimension '" + each.name + "'", number(each.upper_bound.value_or(0))});
+  return elements;
+}
+
+}  // namespace
+
+std::vector<FomDigestEntry> digest(const Fom& fom) {
+  std::vector<FomDigestEntry> entries;
+  for (const Element& each : elements_of(fom)) entries.push_back({hash_of(each.name), hash_of(each.content)});
+  return entries;
+}
+
+std::string difference(const Fom& own, std::span<const FomDigestEntry> other) {
+  const std::vector<Element> elements = elements_of(own);
+  std::vector<std::string> differences;
+  std::size_t shared = 0;
+  for (const Element& each : elements) {
+    const auto found = std::ranges::find(other, hash_of(each.name), &FomDigestEntry::name);
+    if (found == other.end()) differences.push_back(each.name + " is unknown to the federation");
+    else if (found->content != hash_of(each.content)) differences.push_back(each.name + " differs");
+    shared += found != other.end();
+  }
+  if (shared < other.size()) differences.push_back(std::to_string(other.size() - shared) + " of the federation's elements are missing");
+  if (differences.empty()) return std::ranges::equal(digest(own), other) ? "" : "the same elements stand in another order: load the modules in the federation's";
+  return differences.front() + (differences.size() > 1 ? " (and " + std::to_string(differences.size() - 1) + " more)" : "");
+}
+
+}  // namespace rink::rti
