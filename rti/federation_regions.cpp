@@ -100,7 +100,7 @@ Outcome FederationExecution::Parts::associate_region(std::uint32_t slot, Reader&
   const ObjectSlot object = objects_.find({message.object});
   const RegionHandle region{message.region};
   if (object == no_object || (region && !interest_.has_region(slot, region))) return Violation::unknown_name;
-  if (objects_[object].owner != slot) return Violation::not_owned;
+  if (ownership_.owned_by(slot, object).is_empty()) return Violation::not_owned;
   interest_.associate(slot, object, region);
   return std::nullopt;
 }
@@ -114,9 +114,9 @@ Outcome FederationExecution::Parts::associate_regions(std::uint32_t slot, Reader
   return for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
     const AttributeSet attributes{pair.attributes};
     if (!all.includes(attributes) || !interest_.has_region(slot, {pair.region})) return Violation::unknown_name;
-    if (!message.is_associated) interest_.disassociate(slot, object, {pair.region}, attributes);
-    else if (objects_[object].owner == slot) interest_.associate(slot, object, {pair.region}, attributes);
-    else return Violation::not_owned;
+    if (message.is_associated == 0) return interest_.disassociate(slot, object, {pair.region}, attributes), std::nullopt;
+    if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
+    interest_.associate(slot, object, {pair.region}, attributes);
     return std::nullopt;
   });
 }

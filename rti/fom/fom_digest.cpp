@@ -19,6 +19,16 @@ struct Element {
 
 std::string number(std::uint64_t value) { return " " + std::to_string(value); }
 
+/// By name, for their numbers depend on the order of modules.
+std::string names_of(const Fom& fom, DimensionSet dimensions) {
+  std::vector<std::string> names;
+  dimensions.for_each([&](DimensionHandle each) { names.push_back(fom.at(each).name); });
+  std::ranges::sort(names);
+  std::string all;
+  for (const std::string& name : names) all += " " + name;
+  return all;
+}
+
 /// Each class's path from the root: two classes may share a name.
 template <class Class>
 std::string path_of(const std::vector<Class>& classes, std::size_t index) {
@@ -41,7 +51,7 @@ void add_objects(const Fom& fom, std::vector<Element>& elements) {
     for (std::size_t k = inherited_count(classes, classes[i], &ObjectClass::attributes); k < classes[i].attributes.size(); ++k) {
       const Attribute& each = classes[i].attributes[k];
       elements.push_back({"attribute '" + each.name + "' of " + name, each.data_type + number(each.size.value_or(0xffffffffu)) + number(static_cast<std::uint64_t>(each.transportation)) +
-                                                                          number(static_cast<std::uint64_t>(each.order)) + number(each.dimensions.bits) +
+                                                                          number(static_cast<std::uint64_t>(each.order)) + names_of(fom, each.dimensions) +
                                                                           (each.codec ? std::string(each.codec->name()) : "") + (each.baselines ? " baselines" : "")});
     }
   }
@@ -52,7 +62,7 @@ void add_interactions(const Fom& fom, std::vector<Element>& elements) {
   for (std::size_t i = 0; i < classes.size(); ++i) {
     const InteractionClass& own = classes[i];
     const std::string name = "interaction class '" + path_of(classes, i) + "'";
-    elements.push_back({name, number(static_cast<std::uint64_t>(own.transportation)) + number(static_cast<std::uint64_t>(own.order)) + number(own.dimensions.bits)});
+    elements.push_back({name, number(static_cast<std::uint64_t>(own.transportation)) + number(static_cast<std::uint64_t>(own.order)) + names_of(fom, own.dimensions)});
     for (std::size_t k = inherited_count(classes, own, &InteractionClass::parameters); k < own.parameters.size(); ++k)
       elements.push_back({"parameter '" + own.parameters[k].name + "' of " + name, own.parameters[k].data_type + number(own.parameters[k].size.value_or(0xffffffffu))});
   }

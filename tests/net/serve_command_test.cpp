@@ -56,6 +56,16 @@ TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
   }
 }
 
+TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWhereTheyContradict) {
+  const std::filesystem::path folder = testing::TempDir();
+  std::ofstream(folder / "own.fom.xml") << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
+<attribute><name>shape</name><dataType>HLAoctet</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
+  std::ofstream(folder / "rink.toml") << "federation = \"rink\"\nfom = [\"" RINK_SOURCE_DIR "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
+  const Ended ended = run("rink-serve", {"--scene", "match", "--federation", (folder / "rink.toml").string()});
+  EXPECT_NE(ended.status, 0);
+  EXPECT_THAT(ended.words, testing::AllOf(HasSubstr("own.fom.xml:2: InconsistentFDD: <attribute> 'shape' of class 'Entity'"), HasSubstr("game/net/rink.fom.xml:")));
+}
+
 TEST(ServeCommand, RecordsAllThatAReplayNeedsToComeToTheSameHash) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "serve-record.keys";
   const Ended ended = serve({"--scene", "crowd", "--bat-count", "10", "--puck-count", "30", "--seed", "4", "--clients", "0", "--duration", "0.5", "--record", file.string()});

@@ -120,7 +120,7 @@ TEST(FomModules, EveryMalformedModuleIsRefusedByLineAndElement) {
                 "lights.xml:11: <dataTypes> holds <plainDataTypes>; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes"},
       Malformed{"<name>Light</name>", "<name>HLAlight</name>", "lights.xml:4: <objectClass> 'HLAlight': names that begin with HLA are the standard's"},
       Malformed{"<name>pull</name>", "<name>hlaPull</name>", "lights.xml:3: <attribute> 'hlaPull': names that begin with HLA are the standard's"},
-      Malformed{"<name>Signal</name>", "<name>HLAsignal</name>", "lights.xml:7: <interactionClass> 'HLAsignal': names that begin with HLA are the standard's"},
+      Malformed{"<name>Signal</name>", "<name>HLAsignal</name>", "lights.xml:8: <interactionClass> 'HLAsignal': names that begin with HLA are the standard's"},
       Malformed{"<simpleData><name>Pull</name>", "<simpleData><name>HLAinteger32BE</name>", "lights.xml:3: <attribute> 'pull' has the unknown data type 'Pull'"},
       Malformed{"<simpleDataTypes>", "<simpleDataTypes><simpleData><name>HLAinteger32BE</name><representation>HLAfloat64BE</representation></simpleData>",
                 "lights.xml:11: <simpleData> 'HLAinteger32BE' is the standard's, whose size is 32 bits"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "rti/distribution/interest.h"
 #include "tests/rti/airspace.h"
 
 namespace rink::rti::testing {
@@ -295,6 +296,35 @@ TEST(Regions, OverThePlaneAloneNeedNoTestOutsideTheFilter) {
   }
   EXPECT_EQ(space.execution().distribution().counters().ranges_tested, 0u);
   EXPECT_GT(space.execution().distribution().counters().entries, 0u);
+}
+
+/// A user's own data distribution: the RTI's, but deaf to interactions within regions.
+class Deaf final : public Interest {
+ public:
+  using Interest::Interest;
+  bool hears(std::uint32_t, std::uint16_t, std::uint32_t, std::span<const RegionHandle>) override { return false; }
+};
+
+TEST(Regions, DataDistributionIsReplacedByTheUsersOwn) {
+  int made = 0;
+  FederationServices services;
+  services.data_distribution = [&](const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter) {
+    ++made;
+    return std::make_unique<Deaf>(fom, objects, ownership, std::move(filter));
+  };
+  for (const bool is_replaced : {false, true}) {
+    Flights<> flights(2, is_replaced ? services : FederationServices{});
+    Ambassador &up = flights.pilots()[0].ambassador, &down = flights.pilots()[1].ambassador;
+    const RegionHandle sent = up.create_region({channel}), heard = down.create_region({channel});
+    up.commit_region_modifications(sent);
+    down.commit_region_modifications(heard);
+    down.subscribe_interaction_class_with_regions(call, std::span(&heard, 1));
+    flights.tick();
+    up.send_interaction_with_regions(call, values_of(std::uint8_t{1}), std::span(&sent, 1), {});
+    flights.tick();
+    EXPECT_EQ(flights.pilots()[1].heard.interactions.size(), is_replaced ? 0u : 1u);
+  }
+  EXPECT_EQ(made, 1);
 }
 
 }  // namespace
