@@ -16,7 +16,8 @@ struct Node {
   std::uint16_t port = 0;   ///< 1 to 65535
 };
 
-/// A TOML file with `federation`, `fom` (one path, or a list of modules in the order in which they merge), and either `address` and `port` or a list of `[[node]]`, each with `name`, `address`, `port`.
+/// A TOML file with `federation`, `fom` (one path, or a list of modules in the order in which they merge), and either `address` and `port` or a list of
+/// `[[node]]`, each with `name`, `address`, `port`.
 struct FederationFile {
   std::string federation;
   std::vector<std::string> fom;  ///< paths of its modules, never empty; relative ones resolved from the federation file's folder

@@ -56,7 +56,8 @@ struct DeclaredInterest : FederateInterest {
   bool is_changed = false;              ///< subscriptions differ from those of the last match
 };
 
-/// May be derived from, to replace some of it. One region per object and one region over X and Y per subscription take the short way: one call of the filter when it moves, one bit when it is asked for.
+/// May be derived from, to replace some of it. One region per object and one region over X and Y per subscription take the short way: one call of the filter when it moves,
+/// one bit when it is asked for.
 class Interest : public DataDistribution {
  public:
   Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter);

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <map>
 #include <pugixml.hpp>
-#include <set>
 #include <sstream>
 
+#include "rti/fom/data_types.h"
 #include "rti/fom/fom.h"
 #include "rti/fom/fom_modules.h"
 #include "rti/fom/quantisation_reader.h"
@@ -16,21 +16,6 @@ namespace rink::rti {
 namespace {
 
 constexpr std::size_t class_max = 4096, parameter_max = 64;
-
-struct BasicType {
-  const char* name;
-  std::uint32_t size;
-};
-/// The fixed-size representations of IEEE 1516.2, with its predefined HLAbyte, HLAASCIIchar, HLAunicodeChar and HLAboolean.
-constexpr std::array basic_types = {
-    BasicType{"HLAoctet", 1},        BasicType{"HLAbyte", 1},         BasicType{"HLAASCIIchar", 1},    BasicType{"HLAoctetPairBE", 2},
-    BasicType{"HLAoctetPairLE", 2},  BasicType{"HLAunicodeChar", 2},  BasicType{"HLAinteger16BE", 2},  BasicType{"HLAinteger16LE", 2},
-    BasicType{"HLAinteger32BE", 4},  BasicType{"HLAinteger32LE", 4},  BasicType{"HLAinteger64BE", 8},  BasicType{"HLAinteger64LE", 8},
-    BasicType{"HLAfloat32BE", 4},    BasicType{"HLAfloat32LE", 4},    BasicType{"HLAfloat64BE", 8},    BasicType{"HLAfloat64LE", 8},
-    BasicType{"HLAboolean", 4},
-};
-/// Types of the standard whose size varies.
-constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLAopaqueData", "HLAtoken"};
 
 }  // namespace
 
@@ -42,8 +27,6 @@ class FomReader {
 
  private:
   using Node = pugi::xml_node;
-  using Size = std::optional<std::uint32_t>;  ///< nothing: it varies
-
   using Group = FomModules::Group;
 
   [[noreturn]] void fail(const Node& node, const std::string& what) const { modules_.fail(node, what); }
@@ -51,14 +34,6 @@ class FomReader {
   std::string text(const Node& node, const char* child) const { return modules_.text(node, child); }
   std::string text_or(const Node& node, const char* child, const char* otherwise) const { return modules_.text_or(node, child, otherwise); }
 
-  void read_types();
-  void declare(const Node& node);
-  void check_types();
-  void check_variants(const Node& node);
-  void check_enumerators(const Node& node);
-  Size size_of(const std::string& type, const Node& user);
-  Size size_of_array(const Node& node);
-  Size size_of_record(const Node& node);
   void read_dimensions();
   void read_object_class(const Group& group, ObjectClassHandle parent);
   void require_same_members(const Node& first, const Node& second, const char* element) const;
@@ -73,9 +48,7 @@ class FomReader {
   std::uint64_t hash() const;
 
   FomModules modules_;
-  std::map<std::string, Node> declared_types_;
-  std::map<std::string, Size> sizes_;
-  std::set<std::string> being_sized_;
+  DataTypes types_{modules_};
   std::map<std::string, std::shared_ptr<const QuantisedCodec>> codecs_;
   Fom fom_;
 };
@@ -83,119 +56,15 @@ class FomReader {
 Fom FomReader::read() {
   for (const Node& model : modules_.models())
     if (fom_.name_.empty()) fom_.name_ = model.child("modelIdentification").child("name").text().get();
-  read_types();
+  types_.read();
   read_dimensions();
   const std::vector<Node> objects = modules_.sections("objects"), interactions = modules_.sections("interactions");
   if (objects.empty()) fail(modules_.models().front(), "<objectModel> lacks <objects>");
   for (const Group& group : modules_.groups(objects, "objectClass")) read_object_class(group, {});
   for (const Group& group : modules_.groups(interactions, "interactionClass")) read_interaction_class(group, {});
-  check_types();
+  types_.check();
   fom_.hash_ = hash();
   return std::move(fom_);
-}
-
-void FomReader::declare(const Node& node) {
-  const std::string name = text(node, "name");
-  const auto [known, is_new] = declared_types_.emplace(name, node);
-  if (!is_new && known->second.root() == node.root()) fail(node, "data type '" + name + "' is declared twice");
-  if (!is_new) modules_.require_same(known->second, node, "");
-  const bool is_known = std::ranges::find(basic_types, name, &BasicType::name) != basic_types.end() || std::ranges::find(varying_types, name) != varying_types.end();
-  if (!is_known) modules_.require_unreserved({name, {known->second, node}});
-}
-
-void FomReader::read_types() {
-  for (const Node& section : modules_.sections("dataTypes"))
-    for (const Node& group : section.children()) {
-      const std::string_view name = group.name();
-      if (name != "basicDataRepresentations" && name != "simpleDataTypes" && name != "enumeratedDataTypes" && name != "arrayDataTypes" &&
-          name != "fixedRecordDataTypes" && name != "variantRecordDataTypes")
-        fail(group, "<dataTypes> holds <" + std::string(name) +
-                        ">; allowed are basicDataRepresentations, simpleDataTypes, enumeratedDataTypes, arrayDataTypes, fixedRecordDataTypes, variantRecordDataTypes");
-      for (const Node& node : group.children()) declare(node);
-    }
-}
-
-/// Those that no attribute or parameter uses too: another module may.
-void FomReader::check_types() {
-  for (const auto& [name, node] : declared_types_) {
-    const Size size = size_of(name, node);
-    const auto standard = std::ranges::find(basic_types, name, &BasicType::name);
-    if (standard != basic_types.end() && size != standard->size) fail(node, path(node) + " is the standard's, whose size is " + std::to_string(8 * standard->size) + " bits");
-    if (std::string_view(node.name()) == "variantRecordData") check_variants(node);
-    if (std::string_view(node.name()) == "enumeratedData") check_enumerators(node);
-  }
-}
-
-void FomReader::check_variants(const Node& node) {
-  const std::string discriminant = text(node, "dataType");
-  const auto found = declared_types_.find(discriminant);
-  if (discriminant != "HLAboolean" && (found == declared_types_.end() || std::string_view(found->second.name()) != "enumeratedData"))
-    fail(node.child("dataType"), path(node) + " must have an enumerated data type as its discriminant, not '" + discriminant + "'");
-  for (const Node& alternative : node.children("alternative")) {
-    text(alternative, "enumerator");
-    if (text_or(alternative, "dataType", "NA") != "NA") size_of(text(alternative, "dataType"), alternative);
-  }
-}
-
-void FomReader::check_enumerators(const Node& node) {
-  std::set<std::string> names;
-  for (const Node& enumerator : node.children("enumerator"))
-    if (!names.insert(text(enumerator, "name")).second) fail(enumerator, path(enumerator) + " of " + path(node) + " is declared twice");
-}
-
-FomReader::Size FomReader::size_of(const std::string& type, const Node& user) {
-  if (const auto known = sizes_.find(type); known != sizes_.end()) return known->second;
-  const auto declared = declared_types_.find(type);
-  if (declared == declared_types_.end()) {
-    for (const BasicType& basic : basic_types)
-      if (type == basic.name) return basic.size;
-    if (std::find(varying_types.begin(), varying_types.end(), type) != varying_types.end()) return std::nullopt;
-    fail(user, path(user) + " has the unknown data type '" + type + "'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE");
-  }
-  if (!being_sized_.insert(type).second) fail(declared->second, "data type '" + type + "' contains itself");
-  const Node node = declared->second;
-  const std::string_view kind = node.name();
-  Size size;
-  if (kind == "basicData") {
-    const int bits = node.child("size").text().as_int();
-    if (bits < 8 || bits > 1 << 20 || bits % 8 != 0) fail(node, path(node) + " must have a <size> in bits that is a multiple of 8, at most 1048576");
-    size = static_cast<std::uint32_t>(bits / 8);
-  } else if (kind == "simpleData" || kind == "enumeratedData") {
-    size = size_of(text(node, "representation"), node);
-  } else if (kind == "arrayData") {
-    size = size_of_array(node);
-  } else if (kind == "fixedRecordData") {
-    size = size_of_record(node);
-  } else if (kind != "variantRecordData") {  // whose size varies
-    fail(node, "<dataTypes> holds " + path(node) + "; allowed are basicData, simpleData, enumeratedData, arrayData, fixedRecordData, variantRecordData");
-  }
-  being_sized_.erase(type);
-  sizes_[type] = size;
-  return size;
-}
-
-FomReader::Size FomReader::size_of_array(const Node& node) {
-  const std::string cardinality = text(node, "cardinality");
-  const Size element = size_of(text(node, "dataType"), node);
-  if (cardinality.find_first_not_of("0123456789") != std::string::npos) {
-    if (cardinality != "Dynamic" && cardinality.front() != '[') fail(node, path(node) + " must have a <cardinality> that is a count, a [range] or Dynamic");
-    return std::nullopt;
-  }
-  if (cardinality.size() > 6) fail(node, path(node) + " has more than 999999 elements");
-  if (!element) return std::nullopt;
-  const std::uint64_t size = std::stoull(cardinality) * *element;
-  if (size > 1u << 20) fail(node, path(node) + " is longer than 1 MiB");
-  return static_cast<std::uint32_t>(size);
-}
-
-FomReader::Size FomReader::size_of_record(const Node& node) {
-  Size size = 0;
-  for (const Node& field : node.children("field")) {
-    const Size part = size_of(text(field, "dataType"), field);
-    size = size && part ? Size(*size + *part) : std::nullopt;
-  }
-  if (size && *size > 1u << 20) fail(node, path(node) + " is longer than 1 MiB");
-  return size;
 }
 
 void FomReader::read_dimensions() {
@@ -285,7 +154,7 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   for (const Attribute& other : owner.attributes)
     if (other.name == attribute.name) fail(node, path(node) + " is declared twice in class '" + owner.name + "' or what it inherits");
   attribute.data_type = text(node, "dataType");
-  attribute.size = size_of(attribute.data_type, node);
+  attribute.size = types_.size_of(attribute.data_type, node);
   attribute.transportation = transportation(node);
   attribute.order = order(node);
   attribute.dimensions = dimensions_of(node);
@@ -299,8 +168,8 @@ void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   if (!attribute.size) return;
   try {
     const auto known = codecs_.find(attribute.data_type);
-    const auto size_of_type = [this](const std::string& type) { return size_of(type, {}).value_or(0); };
-    const auto codec = known != codecs_.end() ? known->second : QuantisationReader::codec_of(attribute.data_type, declared_types_, size_of_type);
+    const auto size_of_type = [this](const std::string& type) { return types_.size_of(type, {}).value_or(0); };
+    const auto codec = known != codecs_.end() ? known->second : QuantisationReader::codec_of(attribute.data_type, types_.declared(), size_of_type);
     codecs_[attribute.data_type] = codec;
     attribute.codec = codec;
     if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;
@@ -345,7 +214,7 @@ Parameter FomReader::read_parameter(const Node& node, const InteractionClass& ow
   for (const Parameter& other : owner.parameters)
     if (other.name == parameter.name) fail(node, path(node) + " is declared twice in class '" + owner.name + "' or what it inherits");
   parameter.data_type = text(node, "dataType");
-  parameter.size = size_of(parameter.data_type, node);
+  parameter.size = types_.size_of(parameter.data_type, node);
   return parameter;
 }
 
