@@ -35,7 +35,9 @@ Outcome FederationExecution::Parts::Time::take(std::uint32_t slot, MessageKind k
     case MessageKind::timed_send: return take_message(slot, reader);
     case MessageKind::retract: return retract(slot, reader);
     case MessageKind::time_switch: return take_switch(slot, reader);
-    case MessageKind::query_time_bounds: return asking_.push_back(slot), std::nullopt;
+    case MessageKind::query_time_bounds:
+      if (asking_.empty() || asking_.back() != slot) asking_.push_back(slot);  // asked twice in a row, answered once: the answer is longer than the question
+      return std::nullopt;
     case MessageKind::advance_request: {
       AdvanceRequestMessage message;
       if (!exchange(reader, message)) return Violation::malformed;
