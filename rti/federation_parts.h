@@ -90,6 +90,7 @@ class FederationExecution::Parts {
   void send_answers(Outlet& outlet);
   FederationReport report(const Outlet* outlet) const;
   std::vector<std::uint32_t> count_owned() const;
+  void tell_time(std::uint32_t slot, FederateCounts& counts) const;
   void answer_queries(Outlet& outlet);
   Outcome register_point(Reader& reader, std::uint32_t slot);
   std::optional<SynchronizationFailure> find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;

@@ -1,5 +1,6 @@
 // The management service: a federation execution counts little and works out the rest when it is asked.
 #include "rti/federation_parts.h"
+#include "rti/federation_time.h"
 #include "rti/wire/management_messages.h"
 
 namespace rink::rti {
@@ -22,9 +23,18 @@ FederationReport FederationExecution::Parts::report(const Outlet* outlet) const 
     each.counts.objects_owned = owned[slot];
     interest_.of(slot).in_scope.for_each([&](ObjectSlot) { ++each.counts.objects_in_scope; });
     each.counts.queue_bytes = outlet != nullptr ? outlet->waiting_bytes(federate.connection) : 0;
+    if (time_) tell_time(slot, each.counts);
     each.counts.silence_s = now_ - connections_[federate.connection].last_heard;
   }
   return report;
+}
+
+void FederationExecution::Parts::tell_time(std::uint32_t slot, FederateCounts& counts) const {
+  const TimeManagement& management = time_->management();
+  counts.is_time_regulating = management.is_regulating(slot);
+  counts.is_time_constrained = management.is_constrained(slot);
+  if (counts.is_time_regulating != 0 || counts.is_time_constrained != 0) counts.logical_time = management.time(slot);
+  if (counts.is_time_regulating != 0) counts.earliest_stamp = management.earliest(slot);
 }
 
 /// By federate slot: objects of which it owns at least one attribute.

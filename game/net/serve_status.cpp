@@ -45,7 +45,8 @@ std::string shown(const std::string& name) {
 /// Regulating, constrained, both, or neither; with the logical time where it has one.
 std::string time_of(const rti::FederateCounts& counts) {
   if (counts.is_time_regulating == 0 && counts.is_time_constrained == 0) return "-";
-  return line("%s%s %.6g+%.3g", counts.is_time_regulating != 0 ? "R" : "", counts.is_time_constrained != 0 ? "C" : "", counts.logical_time, counts.lookahead);
+  const std::string now = line("%s%s %.6g s", counts.is_time_regulating != 0 ? "R" : "", counts.is_time_constrained != 0 ? "C" : "", counts.logical_time);
+  return counts.is_time_regulating != 0 ? now + line(", sends from %.6g s", counts.earliest_stamp) : now;
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct FederateCounts {
   std::uint64_t queue_bytes = 0;                                     ///< sent to it, not yet taken by the operating system
   std::uint32_t objects_owned = 0, objects_in_scope = 0, regions = 0;
   std::uint8_t is_time_regulating = 0, is_time_constrained = 0;
-  double logical_time = 0.0, lookahead = 0.0;                        ///< [s]; 0 while it neither regulates nor is constrained
+  double logical_time = 0.0;                                         ///< [s]; 0 while it neither regulates nor is constrained
+  double earliest_stamp = 0.0;                                       ///< the least that it may still use [s]; 0 unless it regulates
   double silence_s = 0.0;                                            ///< since something was heard of it
   friend bool operator==(const FederateCounts&, const FederateCounts&) = default;
 };

@@ -39,7 +39,7 @@ bool exchange(Stream& stream, FederateReportMessage& message) {
     if (!stream.varint(*count)) return false;
   for (std::uint32_t* count : {&counts.objects_owned, &counts.objects_in_scope, &counts.regions})
     if (!stream.varint(*count)) return false;
-  return stream.range(counts.is_time_regulating, 1) && stream.range(counts.is_time_constrained, 1) && stream.number(counts.logical_time) && stream.number(counts.lookahead) &&
+  return stream.range(counts.is_time_regulating, 1) && stream.range(counts.is_time_constrained, 1) && stream.number(counts.logical_time) && stream.number(counts.earliest_stamp) &&
          stream.finite(counts.silence_s);
 }
 
