@@ -17,6 +17,9 @@ class GuardedTransport::Relay final : public TransportListener {
     guard_.speak(stranger);
   }
   void on_bytes(ConnectionId connection, Bytes bytes) override { guard_.hear(connection, bytes, listener_); }
+  void on_datagram(ConnectionId connection, Bytes datagram) override {
+    if (guard_.is_known(connection)) listener_.on_datagram(connection, datagram);
+  }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
     Stranger* stranger = guard_.find(connection);
     if (stranger == nullptr) return listener_.on_close(connection, reason, detail);
@@ -38,7 +41,7 @@ GuardedTransport::GuardedTransport(Transport& inner, const SharedKey& key, Guard
     : inner_(inner), key_(key), settings_(std::move(settings)), now_s_(std::move(now_s)) {}
 
 GuardedTransport::Stranger* GuardedTransport::find(ConnectionId connection) {
-  if (connection < is_known_.size() && is_known_[connection]) return nullptr;
+  if (is_known(connection)) return nullptr;
   for (const auto& each : strangers_)
     if (each->connection == connection) return each.get();
   return nullptr;
@@ -96,7 +99,7 @@ void GuardedTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
 }
 
 void GuardedTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
-  if (connection < is_known_.size() && is_known_[connection]) return inner_.send(connection, parts);
+  if (is_known(connection)) return inner_.send(connection, parts);
   if (settings_.role == Role::rti) return;  // nobody knows it
   Stranger& stranger = meet(connection);
   for (const Bytes part : parts) stranger.pending.insert(stranger.pending.end(), part.begin(), part.end());

@@ -31,6 +31,12 @@ class GuardedTransport final : public Transport {
   void close(ConnectionId connection) override { inner_.close(connection); }
   std::size_t queued_bytes(ConnectionId connection) const override { return inner_.queued_bytes(connection); }
   TransportCounters counters(ConnectionId connection) const override { return inner_.counters(connection); }
+  /// Datagrams pass, both ways, once both ends are proven.
+  std::size_t datagram_max(ConnectionId connection) const override { return is_known(connection) ? inner_.datagram_max(connection) : 0; }
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
+    if (is_known(connection)) inner_.send_datagrams(connection, datagrams);
+  }
+  void push() override { inner_.push(); }
 
   /// Strangers closed so far.
   std::uint64_t refused() const { return refused_; }
@@ -44,6 +50,7 @@ class GuardedTransport final : public Transport {
     std::vector<std::byte> pending;  ///< to be sent to it once it is none
     bool is_open = false, is_refused = false;
   };
+  bool is_known(ConnectionId connection) const { return connection < is_known_.size() && is_known_[connection]; }
   Stranger* find(ConnectionId connection);
   Stranger& meet(ConnectionId connection);
   void forget(ConnectionId connection);
