@@ -20,6 +20,7 @@
 #include "loadgen/bot_crowd.h"
 #include "loadgen/bots_report.h"
 #include "loadgen/process.h"
+#include "game/net/gate.h"
 #include "game/players/random_plan.h"
 #include "rti/transport/socket_transport.h"
 
@@ -30,6 +31,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd", transport = "tcp";
+  std::string key_file;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
@@ -84,6 +86,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
       ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
       ->capture_default_str();
+  app.add_option("--key-file", options.key_file, "the server's key file, if it asks for one")->check(CLI::ExistingFile);
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
   app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
   app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
@@ -153,7 +156,8 @@ game::ExitStatus play(const Options& options) {
                                            .warm_up_s = options.warm_up_s,
                                            .duration_s = options.duration_s,
                                            .players = players_of(options)};
-  loadgen::BotCrowd crowd(fom, transport.get(), settings, options.count, plan, now_s);
+  game::Gate gate(transport.get(), {.key_file = options.key_file, .role = rti::Role::federate, .federation = options.federation}, now_s);
+  loadgen::BotCrowd crowd(fom, gate.transport(), settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();
   crowd.connect([&](std::uint32_t) { return transport.connect(address, port); });

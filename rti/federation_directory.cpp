@@ -20,7 +20,6 @@ class FederationDirectory::Usher final : public Outlet {
     directory_.connections_[connection] = {};
     outlet_.drop(connection, why);
   }
-  std::size_t waiting_bytes(ConnectionId connection) const override { return outlet_.waiting_bytes(connection); }
 
  private:
   FederationDirectory& directory_;

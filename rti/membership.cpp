@@ -11,6 +11,7 @@ const char* to_string(Refusal refusal) {
     case Refusal::name_taken: return "a federate of that name has already joined";
     case Refusal::federation_full: return "the federation execution has its greatest number of federates";
     case Refusal::bad_name: return "a federate needs a name";
+    case Refusal::not_admitted: return "a shared key is asked for: give both ends the same key file";
   }
   return "unknown refusal";
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "game/match/match_source.h"
+#include "game/net/gate.h"
 #include "game/net/network_match.h"
 #include "game/replication/object_model.h"
 #include "rti/fom/fom.h"
@@ -15,7 +16,8 @@ namespace rink::game {
 class JoinedMatch final : public MatchSource {
  public:
   /// `place`: HOST:PORT. Throws std::invalid_argument or rti::TransportError with what is wrong with it; that nobody listens there shows later, as a match that is lost.
-  JoinedMatch(const std::string& place, const NetworkMatchSettings& settings);
+  /// With a key file, both ends prove that they have the same.
+  JoinedMatch(const std::string& place, const NetworkMatchSettings& settings, const std::string& key_file = "");
   /// Takes leave of the server.
   ~JoinedMatch() override;
 
@@ -33,8 +35,9 @@ class JoinedMatch final : public MatchSource {
   rti::Fom fom_;
   ObjectModel model_;
   rti::TcpTransport transport_;
-  NetworkMatch match_;
   double now_s_ = 0.0;
+  Gate gate_;
+  NetworkMatch match_;
 };
 
 }  // namespace rink::game

@@ -30,6 +30,7 @@
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
 #include "rti/wire/message.h"
+#include "game/net/gate.h"
 #include "rti/transport/socket_transport.h"
 
 namespace {
@@ -62,9 +63,10 @@ class ServerProcess {
         serving_(fom, scene,
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay), .hosting = hosting_of(options)},
                  federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
+        gate_(sockets_.get(), {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
         server_(serving_.server()),
         records_(options.record) {
-    serving_.host().add(sockets_.get());
+    serving_.host().add(gate_.transport());
     if (!options.evidence.empty())
       serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
   }
@@ -98,6 +100,7 @@ class ServerProcess {
   game::ServeOptions options_;
   rti::SocketTransport sockets_;
   game::Serving serving_;
+  game::Gate gate_;
   game::Server& server_;
   game::MatchRecords records_;
   double start_s_ = 0.0;

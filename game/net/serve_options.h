@@ -15,10 +15,12 @@ namespace rink::game {
 
 struct ServeOptions {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", transport = "tcp", hosted;
+  std::string key_file;
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
+  double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
 };
 
 inline void add_options(CLI::App& app, ServeOptions& options) {
@@ -38,6 +40,9 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--transport", options.transport, "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients of this machine only, by the port")
       ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
       ->capture_default_str();
+  app.add_option("--key-file", options.key_file, "let in only clients that have the same file (docs/rti.md, Admission); none: all")->check(CLI::ExistingFile);
+  app.add_option("--rate-limit", options.rate_limit_bytes_per_s, "bytes per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e12))->capture_default_str();
+  app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e9))->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();

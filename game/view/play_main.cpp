@@ -108,8 +108,8 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view:
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
   if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, host_records(records));
-  if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())});
-  if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true});
+  if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())}, options.key_file);
+  if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true}, options.key_file);
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
   const game::Scene scene = game::load_scene("match");
   game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text("match")};

@@ -10,6 +10,7 @@ const char* to_string(CloseReason reason) {
     case CloseReason::queue_full: return "queue full";
     case CloseReason::refused: return "refused";
     case CloseReason::failed: return "failed";
+    case CloseReason::too_fast: return "sent faster than allowed";
   }
   return "unknown reason";
 }

@@ -19,6 +19,7 @@ enum class CloseReason : std::uint8_t {
   queue_full,       ///< the peer did not read and its queue reached the limit
   refused,          ///< nobody listens there
   failed,           ///< any other error of the operating system
+  too_fast,         ///< the peer sent more than its rate limit allows
 };
 const char* to_string(CloseReason reason);
 

@@ -39,10 +39,12 @@ enum class MessageKind : std::uint8_t {
   create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
   // federation management
   create_federation_execution = 20, destroy_federation_execution = 21, list_federation_executions = 22, query_management = 23,
-  // free: 24 to 27 federation management, 35 time, 36 to 45 ownership, 46 to 49 objects and declarations, 58 to 63 the connection
+  // free: 24 to 27 federation management, 35 time, 36 to 45 ownership, 46 to 49 objects and declarations, 60 to 63 the connection
   // baselines
   acknowledge_keyframe = 50, refuse_keyframe = 51,
   acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
+  // admission, where a key is shared: before anything else
+  hello = 58, proof = 59,
   // RTI to federate
   joined = 64, refused, announce_synchronization_point, federation_synchronized, federate_joined, federate_resigned,
   discover_object, remove_object, in_scope, out_of_scope,
@@ -53,7 +55,9 @@ enum class MessageKind : std::uint8_t {
   federation_report = 78, federate_report = 79, report_end = 80,
   // baselines
   begin_keyframe = 110, deltas = 111,
-  // free: 81 federation management, 88 to 91 time, 92 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 118 to 127 the connection
+  // admission
+  challenge = 118, admitted = 119,
+  // free: 81 federation management, 88 to 91 time, 92 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.

@@ -1,0 +1,56 @@
+// One conversation in which both ends prove that they have the same key.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rti/admission/shared_key.h"
+
+namespace rink::rti {
+
+/// Hello, challenge, proof, proof. No I/O and no clock: bytes in, bytes out. The RTI's end never says more than it heard: `outgoing` stays empty rather.
+class Handshake {
+ public:
+  enum class State : std::uint8_t {
+    going_on,
+    proven,  ///< the other end has the key
+    failed,  ///< it has not, or said something else: send what is left and close
+  };
+  /// `key` must outlive it. `nonce` must never have been used before. A federate's end has something to send at once.
+  Handshake(const SharedKey& key, Role role, std::string_view federation, const Nonce& nonce);
+
+  State state() const { return state_; }
+  /// After `failed`: a sentence for a user.
+  const std::string& why() const { return why_; }
+  /// Takes from the front of `bytes`, which may be cut anywhere, no more than belongs to the handshake; what is left once it is proven is the conversation's.
+  State receive(Bytes& bytes);
+  Bytes outgoing() const { return outgoing_; }
+  void clear_outgoing() { outgoing_.clear(); }
+
+ private:
+  void take_frame(Bytes frame);
+  void take_hello(Bytes body);
+  void take_proof(Bytes body);
+  void take_challenge(Bytes body);
+  void take_admission(Bytes body);
+  void take_refusal(Bytes body);
+  template <class Message>
+  void say(Message message);
+  void refuse(std::string_view why);
+  void fail(std::string_view why);
+  ProofBasis basis() const;
+
+  const SharedKey& key_;
+  Role role_;
+  std::string federation_;
+  Nonce ours_;
+  std::optional<Nonce> theirs_;
+  State state_ = State::going_on;
+  std::string why_;
+  std::vector<std::byte> incoming_, outgoing_;
+  std::size_t heard_ = 0, said_ = 0;  ///< bytes in all
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,44 @@
+// A key that both ends have, and the proofs that they do.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "rti/wire/bytes.h"
+
+namespace rink::rti {
+
+using Nonce = std::array<std::byte, 32>;  ///< drawn at random for one conversation
+using Proof = std::array<std::byte, 32>;
+
+/// From the operating system's generator, as keys are.
+Nonce draw_nonce();
+
+/// Which end says it: a proof of one is none of the other's, so nobody can be answered with their own.
+enum class Role : std::uint8_t { federate = 1, rti = 2 };
+
+/// What a proof is bound to: both ends' nonces, so that an old one is worth nothing, and the federation, so that one of another is not either.
+struct ProofBasis {
+  Nonce federate{}, rti{};
+  std::string_view federation;  ///< at most 255 bytes
+};
+
+/// Proofs are BLAKE2b keyed with the secret's own BLAKE2b, 32 bytes (libsodium's generichash); compared in constant time. The key is never sent.
+class SharedKey {
+ public:
+  static constexpr std::size_t secret_size_min = 16;  ///< bytes
+  /// Throws std::invalid_argument if the secret is shorter than `secret_size_min`.
+  explicit SharedKey(Bytes secret);
+  /// The file's bytes without white space at its end. Throws std::runtime_error, which names the file and what is wrong.
+  static SharedKey load(const std::filesystem::path& file);
+
+  Proof prove(Role role, const ProofBasis& basis) const;
+  bool is_proven(Role role, const ProofBasis& basis, const Proof& proof) const;
+
+ private:
+  std::array<std::byte, 32> key_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,70 @@
+// Lets nobody through to the RTI, or to a federate, who has not proven that they have the shared key.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rti/admission/handshake.h"
+#include "rti/transport/transport.h"
+
+namespace rink::rti {
+
+struct GuardSettings {
+  Role role = Role::rti;      ///< of this end
+  std::string federation = "rink";
+  double patience_s = 3.0;    ///< for a stranger to prove itself; it costs a file and less than 2 kB meanwhile
+};
+
+/// Any transport behind a handshake for each of its connections (rti/admission/handshake.h). The listener hears of a connection once both ends have proven
+/// themselves; a stranger who doesn't is closed, is never heard of at the RTI's end, and closes with `failed` and a reason at the federate's. Afterwards bytes pass as they are.
+class GuardedTransport final : public Transport {
+ public:
+  using Clock = std::function<double()>;  ///< [s]
+  /// `inner` and `key` must outlive it.
+  GuardedTransport(Transport& inner, const SharedKey& key, GuardSettings settings, Clock now_s);
+
+  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
+  /// What is sent before the proof waits for it.
+  void send(ConnectionId connection, std::span<const Bytes> parts) override;
+  void close(ConnectionId connection) override { inner_.close(connection); }
+  std::size_t queued_bytes(ConnectionId connection) const override { return inner_.queued_bytes(connection); }
+  TransportCounters counters(ConnectionId connection) const override { return inner_.counters(connection); }
+  /// Datagrams pass, both ways, once both ends are proven.
+  std::size_t datagram_max(ConnectionId connection) const override { return is_known(connection) ? inner_.datagram_max(connection) : 0; }
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
+    if (is_known(connection)) inner_.send_datagrams(connection, datagrams);
+  }
+  void push() override { inner_.push(); }
+
+  /// Strangers closed so far.
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  class Relay;
+  struct Stranger {
+    ConnectionId connection;
+    double since;
+    Handshake handshake;
+    std::vector<std::byte> pending;  ///< to be sent to it once it is none
+    bool is_open = false, is_refused = false;
+  };
+  bool is_known(ConnectionId connection) const { return connection < is_known_.size() && is_known_[connection]; }
+  Stranger* find(ConnectionId connection);
+  Stranger& meet(ConnectionId connection);
+  void forget(ConnectionId connection);
+  void speak(Stranger& stranger);
+  void refuse(Stranger& stranger);
+  void hear(ConnectionId connection, Bytes bytes, TransportListener& listener);
+
+  Transport& inner_;
+  const SharedKey& key_;
+  GuardSettings settings_;
+  Clock now_s_;
+  std::vector<std::unique_ptr<Stranger>> strangers_;
+  std::vector<bool> is_known_;  ///< by connection: proven
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace rink::rti

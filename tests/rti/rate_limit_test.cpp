@@ -1,0 +1,108 @@
+// Who sends faster than allowed is dropped, whatever the cuts; who keeps to the limit never is.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "rig.h"
+#include "rti/admission/token_bucket.h"
+#include "rti/transport/rate_limited_transport.h"
+
+namespace rink::rti::testing {
+namespace {
+
+TEST(RateLimit, ABucketGivesASecondsWorthAtOnceAndItsRateFromThenOn) {
+  TokenBucket bucket(100.0, 5.0);
+  EXPECT_TRUE(bucket.take(100.0, 5.0));
+  EXPECT_FALSE(bucket.take(1.0, 5.0));
+  EXPECT_TRUE(bucket.take(50.0, 5.5));
+  EXPECT_FALSE(bucket.take(1.0, 5.5));
+  EXPECT_TRUE(bucket.take(100.0, 99.0)) << "no more than a second's worth is saved";
+  EXPECT_FALSE(bucket.take(1.0, 99.0));
+  TokenBucket unlimited(0.0, 0.0);
+  EXPECT_TRUE(unlimited.take(1e18, 0.0));
+}
+
+/// Counts what is passed on.
+struct Ear final : TransportListener {
+  std::size_t bytes = 0;
+  int opened = 0, closed = 0;
+  CloseReason reason = CloseReason::failed;
+  void on_open(ConnectionId) override { ++opened; }
+  void on_bytes(ConnectionId, Bytes heard) override { bytes += heard.size(); }
+  void on_close(ConnectionId, CloseReason why, const std::string&) override {
+    ++closed;
+    reason = why;
+  }
+};
+
+struct Line {
+  explicit Line(const RateLimit& limit) : limited(server, limit, [this] { return now; }) {
+    server.listen("rti");
+    id = client.connect("rti");
+    hear();
+  }
+  void say(Bytes bytes) { client.send(id, std::span(&bytes, 1)); }
+  void hear() {
+    limited.poll({}, here);
+    client.poll({}, there);
+  }
+  double now = 0.0;
+  InProcessNetwork network;
+  InProcessEndpoint server{network}, client{network};
+  RateLimitedTransport limited;
+  Ear here, there;
+  ConnectionId id = 0;
+};
+
+/// So many frames of so many bytes of messages each.
+std::vector<std::byte> frames(int count, std::uint32_t size) {
+  std::vector<std::byte> bytes;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<std::byte> header = values_of(size);
+    bytes.insert(bytes.end(), header.begin(), header.end());
+    bytes.resize(bytes.size() + size);
+  }
+  return bytes;
+}
+
+TEST(RateLimit, WhoSendsMoreBytesThanAllowedIsClosedAndNamed) {
+  Line line({.bytes_per_s = 1000.0});
+  for (int second = 0; second < 20; ++second, line.now += 1.0) {
+    line.say(frames(4, 246));
+    line.hear();
+  }
+  EXPECT_EQ(line.here.bytes, 20'000u);
+  line.say(frames(5, 246));
+  line.hear();
+  line.hear();
+  EXPECT_EQ(line.here.closed, 1);
+  EXPECT_EQ(line.here.reason, CloseReason::too_fast);
+  EXPECT_STREQ(to_string(line.here.reason), "sent faster than allowed");
+  EXPECT_EQ(line.there.closed, 1);
+  EXPECT_EQ(line.here.bytes, 20'000u) << "what is too much is not passed on";
+  EXPECT_EQ(line.limited.closed(), 1u);
+}
+
+TEST(RateLimit, FramesCountHoweverTheyAreCut) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    Line line({.frames_per_s = 50.0});
+    const std::vector<std::byte> allowed = frames(50, static_cast<std::uint32_t>(1 + random() % 30));
+    for (Bytes left = allowed; !left.empty();) {
+      const std::size_t size = std::min<std::size_t>(left.size(), 1 + random() % 40);
+      line.say(left.first(size));
+      left = left.subspan(size);
+      line.hear();
+    }
+    EXPECT_EQ(line.here.closed, 0);
+    EXPECT_EQ(line.here.bytes, allowed.size());
+    line.say(frames(1, 1));
+    line.hear();
+    line.hear();
+    EXPECT_EQ(line.here.reason, CloseReason::too_fast);
+  }
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
