@@ -254,6 +254,8 @@ void Ambassador::take_notice(ObjectHandle object, KnownObject& known, OwnershipN
   }
   settle_holding(object, known);
   if (!told.is_empty()) call_back(object, notice, told, tag);
+  const bool is_kept = notice == OwnershipNotice::kept || notice == OwnershipNotice::kept_offered;
+  if (is_kept && !pending.is_empty()) call_back(object, OwnershipNotice::acquired, pending, {});  // asked for again before it was clear that it had stayed
 }
 
 void Ambassador::call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
