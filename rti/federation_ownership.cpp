@@ -174,9 +174,9 @@ void FederationExecution::Parts::offer_to(std::uint32_t slot, ObjectSlot object,
   notify(slot, OwnershipNotice::assumption_requested, handle, ownership_.unowned(object) & set, {});
 }
 
-/// What was said of the object this tick reaches its new owner before the notification, for after it comes nothing more; later it is no longer in its scope.
+/// The newest state reaches the new owner before the notification. After it comes nothing more, for what one owns is out of one's scope: neither what was said this tick
+/// nor what buffering held back.
 void FederationExecution::Parts::say_last_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest) {
-  if (!runs_.has(object)) return;
   const Object& moved = objects_[object];
   const AttributeSet set = interest_.of(slot).told(object, moved.object_class) & moved.valued;
   if (set.is_empty()) return;

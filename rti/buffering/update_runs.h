@@ -40,8 +40,6 @@ class UpdateRuns {
   void seal();
   void clear();
   std::span<const UpdateRun> runs() const { return {runs_.data(), size_}; }
-  /// True if it has a record of the object.
-  bool has(ObjectSlot slot) const { return slot < last_run_.size() && last_run_[slot] != 0; }
 
  private:
   UpdateRun& run_for(std::uint32_t owner, ObjectSlot slot, const Object& object, AttributeSet attributes, const Stamp& stamp);
