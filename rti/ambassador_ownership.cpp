@@ -44,6 +44,7 @@ Holding& Ambassador::holding_of(ObjectHandle object, const KnownObject& known) {
 void Ambassador::settle_holding(ObjectHandle object, KnownObject& known) {
   const Holding* holding = holdings_.find(object);
   known.is_own = holding->owned == all_of(known);
+  if (holding->owned.is_empty()) regions_.forget(object);  // its regions are the new owner's to associate
   if ((known.is_own || holding->owned.is_empty()) && holding->offered.is_empty() && holding->pending().is_empty()) holdings_.erase(object);
 }
 

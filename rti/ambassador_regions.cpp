@@ -182,7 +182,7 @@ void Ambassador::write_numbers(std::span<const RegionHandle> regions) {
 ObjectClassHandle Ambassador::own_class(ObjectHandle object) {
   const KnownObject* known = find(object);
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
-  if (!known->is_own) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
+  if (owned_of(object, *known).is_empty()) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
   return {known->object_class};
 }
 

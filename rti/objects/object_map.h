@@ -58,12 +58,6 @@ class ObjectMap {
     for (const Slot& slot : slots_)
       if (slot.key != nobody) visit(ObjectHandle{slot.key}, slot.value);
   }
-  /// Calls `visit(handle, value)` for each, in no particular order; it must not insert or erase here.
-  template <class Visit>
-  void for_each(Visit visit) {
-    for (Slot& slot : slots_)
-      if (slot.key != nobody) visit(ObjectHandle{slot.key}, slot.value);
-  }
 
   std::size_t memory_bytes() const { return slots_.capacity() * sizeof(Slot); }
 
