@@ -152,7 +152,10 @@ void Ambassador::forget(ObjectHandle object) {
 }
 
 Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
-  if (!is_ours(object)) return known_.find(object);
+  if (!is_ours(object)) {
+    KnownObject* known = known_.find(object);
+    return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;  // else it is being deleted by us
+  }
   const std::uint32_t number = object.value % object_block;
   const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
   return is_known ? &own_[number] : nullptr;

@@ -80,7 +80,7 @@ void Ambassador::commit_region_modifications(std::span<const RegionBounds> regio
 
 void Ambassador::delete_region(RegionHandle region) {
   const std::uint32_t number = regions_.check(region);
-  regions_.remove(region, [this](ObjectHandle object) { return find(object) != nullptr && find(object)->is_own; });
+  regions_.remove(region, [this](ObjectHandle object) { return find(object) != nullptr && !owned_of(object, *find(object)).is_empty(); });
   say(DeleteRegionMessage{number});
 }
 
