@@ -15,11 +15,15 @@ Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Pati
       callbacks_(queue_ ? *queue_ : callbacks),
       patience_(patience),
       regions_(fom),
+      published_(fom.object_classes().size()),
       outgoing_(frame_max_to_rti),
       arrivals_(fom) {}
 
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
-  assert(fom_.attributes(object_class).includes(attributes));
+  if (object_class.value >= published_.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
+  if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "of class " + fom_.at(object_class).name);
+  withdraw_publication(object_class, published_[object_class.value].without(attributes), attributes.is_empty());
+  published_[object_class.value] = attributes;
   say(PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
 }
 
@@ -50,7 +54,9 @@ void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interactio
 }
 
 ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class, std::string_view name) {
-  assert(phase_ == Phase::joined && object_class.value < fom_.object_classes().size());
+  if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
+  if (object_class.value >= published_.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
+  if (published_[object_class.value].is_empty()) throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
   if (objects_registered_ == object_block) return {};
   const ObjectHandle object{object_block_ * object_block + objects_registered_++};
   own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
@@ -59,10 +65,9 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
 }
 
 void Ambassador::delete_object_instance(ObjectHandle object) {
-  KnownObject* known = find(object);
-  assert(known != nullptr && known->is_own);
-  *known = {};
-  regions_.forget(object);
+  const KnownObject& known = known_or_throw(object, {});
+  if (!owned_of(object, known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value));
+  forget(object);
   say(DeleteObjectMessage{object.value});
 }
 
@@ -78,7 +83,7 @@ void Ambassador::begin_updates(ObjectClassHandle object_class, AttributeSet attr
 
 void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   const KnownObject* known = find(object);
-  assert(phase_ == Phase::joined && known != nullptr && known->is_own);
+  if (phase_ != Phase::joined || known == nullptr || !known->is_own) check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
   assert(fom_.values_fit(object_class, attributes, values));
   if (is_coded(fom_.at(object_class), attributes)) {
@@ -119,6 +124,7 @@ void Ambassador::clear_outgoing() {
   counters_.bytes_sent += outgoing_.bytes().size();
   counters_.frames_sent = outgoing_.frame_count();
   outgoing_.clear();
+  object_block_writer_.close();
   open_.is_open = false;
 }
 
@@ -138,8 +144,18 @@ void Ambassador::advance_clock(double now) {
   }
 }
 
+void Ambassador::forget(ObjectHandle object) {
+  holdings_.erase(object);
+  regions_.forget(object);
+  if (is_ours(object)) own_[object.value % object_block] = {};
+  else known_.erase(object);
+}
+
 Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
-  if (!is_ours(object)) return known_.find(object);
+  if (!is_ours(object)) {
+    KnownObject* known = known_.find(object);
+    return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;  // else it is being deleted by us
+  }
   const std::uint32_t number = object.value % object_block;
   const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
   return is_known ? &own_[number] : nullptr;
@@ -147,7 +163,8 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
+  const std::size_t ownership = published_.capacity() * sizeof published_[0] + holdings_.memory_bytes();
+  return waiting + ownership + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes();
 }
 

@@ -16,9 +16,12 @@
 #include "rti/federate_ambassador.h"
 #include "rti/distribution/region_book.h"
 #include "rti/fom/fom.h"
+#include "rti/hla_error.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
 #include "rti/objects/arrival_order.h"
+#include "rti/wire/object_block.h"
+#include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
 #include "rti/time/federate_clock.h"
 #include "rti/wire/stream.h"
@@ -87,6 +90,32 @@ class Ambassador {
   void unpublish_interaction_class(InteractionClassHandle interaction_class);
   void subscribe_interaction_class(InteractionClassHandle interaction_class);
   void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
+
+  /// Ownership management (clause 7). The privilege to delete an object is its attribute `privilege_to_delete_object`. The RTI decides and answers by callbacks;
+  /// a federate loses an attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown, AttributeNotDefined, AttributeNotOwned and those named.
+  /// Tags have at most 1,024 bytes. Successive calls that differ in the object only travel as one block.
+  void unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);
+  /// Keeps them until somebody takes them, `request_divestiture_confirmation` says so and it is confirmed. AttributeAlreadyBeingDivested.
+  void negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+  /// From now on they are not owned; should whoever wanted them have gone meanwhile, `attribute_ownership_kept` gives them back.
+  /// AttributeDivestitureWasNotRequested, NoAcquisitionPending.
+  void confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+  void cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);  ///< AttributeDivestitureWasNotRequested
+  void attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes);
+  /// What the standard returns comes by `attribute_ownership_divested` and `attribute_ownership_kept`; until then they are not owned.
+  void attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes);
+  /// ObjectClassNotPublished, AttributeNotPublished, FederateOwnsAttributes; the second also AttributeAlreadyBeingAcquired.
+  void attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+  void attribute_ownership_acquisition_if_available(ObjectHandle object, AttributeSet attributes);
+  /// Ends with the confirmation of the cancellation, or with the acquisition. AttributeAlreadyOwned, AttributeAcquisitionWasNotRequested.
+  void cancel_attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes);
+  /// Answered by `inform_attribute_ownership` or `attribute_is_not_owned`.
+  void query_attribute_ownership(ObjectHandle object, AttributeHandle attribute);
+  bool is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute);
+  /// What becomes of its objects should it be lost (10.4); at first cancel_then_delete_then_divest.
+  void set_automatic_resign_directive(ResignAction action);
+  /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of these.
+  void resign(ResignAction action);
 
   /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/wire/message.h). The name may be empty.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
@@ -220,7 +249,7 @@ class Ambassador {
   struct KnownObject {
     static constexpr std::uint16_t unknown = 0xffff;
     std::uint16_t object_class = unknown;
-    bool is_own = false;
+    bool is_own = false;  ///< every attribute of it; who owns some has a holding
   };
   /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
   template <class Message>
@@ -230,6 +259,8 @@ class Ambassador {
   [[noreturn]] void refuse_stranger() const;
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
   KnownObject* find(ObjectHandle object);
+  void forget(ObjectHandle object);
+  void withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all);
   bool take_frame(Bytes frame);
   bool take_message(Reader& reader);
   bool take_membership(Reader& reader, std::uint8_t kind);
@@ -265,6 +296,26 @@ class Ambassador {
   void end_keyframe();
   bool take_deltas(Reader& reader);
   DeltaOutcome take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp);
+  // Ownership (ambassador_ownership.cpp).
+  AttributeSet all_of(const KnownObject& known) const;
+  template <class Visit>
+  void for_each_known(Visit visit);
+  KnownObject& known_or_throw(ObjectHandle object, AttributeSet attributes);
+  AttributeSet owned_of(ObjectHandle object, const KnownObject& known) const;
+  Holding& holding_of(ObjectHandle object, const KnownObject& known);
+  void settle_holding(ObjectHandle object, KnownObject& known);
+  void check_update(ObjectHandle object, AttributeSet attributes);
+  AttributeSet require_owned(ObjectHandle object, AttributeSet attributes);       ///< returns what is offered
+  AttributeSet require_acquirable(ObjectHandle object, AttributeSet attributes);  ///< returns what is being acquired
+  void ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
+  void give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
+  bool take_ownership(Reader& reader, std::uint8_t kind);
+  void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
+  void call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
+  /// Says the header of `object`, in one block with those before it if they had the same.
+  template <class Header>
+  void say_of(Header header, ObjectHandle object);
+
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
@@ -308,6 +359,9 @@ class Ambassador {
   std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
   std::vector<FederationReport> reports_;      ///< likewise
   bool has_asked_ = false;                     ///< the host, before the join
+  ObjectMap<Holding> holdings_;     ///< of objects owned in part or negotiated about
+  std::vector<AttributeSet> published_;  ///< by object class
+  ObjectBlockWriter object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
   FrameWriter outgoing_;
   FrameReader incoming_;
   /// The block of updates that still grows at the end of `outgoing_`, if any.
@@ -360,6 +414,16 @@ void Ambassador::say(Message message) {
 template <class Message>
 void Ambassador::append(Message& message) {
   write(outgoing_.begin_message(measure(message)), message);
+  outgoing_.appended();
+  open_.is_open = false;
+}
+
+template <class Header>
+void Ambassador::say_of(Header header, ObjectHandle object) {
+  assert(phase_ == Phase::joined);
+  const std::size_t size = measure(header) + object_record_max;
+  if (!outgoing_.has_room(size)) object_block_writer_.close();
+  object_block_writer_.append(outgoing_.begin_message(size), header, object.value);
   outgoing_.appended();
   open_.is_open = false;
 }

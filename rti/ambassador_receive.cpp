@@ -70,6 +70,8 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::in_scope:
     case MessageKind::out_of_scope: return take_scope(reader, kind);
     case MessageKind::provide_update: return take_provide_update(reader);
+    case MessageKind::ownership_notice:
+    case MessageKind::inform_ownership: return take_ownership(reader, kind);
     case MessageKind::stamp: return take_stamp(reader);
     case MessageKind::updates: return take_updates(reader);
     case MessageKind::begin_keyframe: return take_keyframe(reader);
@@ -136,10 +138,10 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::remove_object) {
     RemoveObjectMessage message;
     if (!exchange(reader, message)) return false;
-    KnownObject* known = find({message.object});
-    if (known == nullptr || known->is_own) return false;
-    known_.erase({message.object});
+    const KnownObject* known = find({message.object});
+    if (known == nullptr || owned_of({message.object}, *known).contains(privilege_to_delete_object)) return false;
     arrivals_.leave({message.object});
+    forget({message.object});
     ++counters_.objects_removed;
     if (timed_ != nullptr) callbacks_.remove_object_instance_with_time({message.object}, *timed_);
     else callbacks_.remove_object_instance({message.object});

@@ -80,7 +80,7 @@ void Ambassador::commit_region_modifications(std::span<const RegionBounds> regio
 
 void Ambassador::delete_region(RegionHandle region) {
   const std::uint32_t number = regions_.check(region);
-  regions_.remove(region, [this](ObjectHandle object) { return find(object) != nullptr && find(object)->is_own; });
+  regions_.remove(region, [this](ObjectHandle object) { return find(object) != nullptr && !owned_of(object, *find(object)).is_empty(); });
   say(DeleteRegionMessage{number});
 }
 
@@ -182,7 +182,7 @@ void Ambassador::write_numbers(std::span<const RegionHandle> regions) {
 ObjectClassHandle Ambassador::own_class(ObjectHandle object) {
   const KnownObject* known = find(object);
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
-  if (!known->is_own) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
+  if (owned_of(object, *known).is_empty()) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
   return {known->object_class};
 }
 

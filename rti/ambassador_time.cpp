@@ -79,7 +79,7 @@ RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, Attrib
     return {};
   }
   clock_.check_send(time.value);
-  if (!known->is_own) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
+  if (!known->is_own && !owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
   assert(fom_.values_fit(object_class, attributes, values));
   std::vector<std::byte> ordered, others;  // each attribute's value goes with those of its order
   for (std::uint32_t i = 0; i < attribute_max; ++i) {
@@ -127,7 +127,7 @@ RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, Logical
   }
   KnownObject* known = find(object);
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
-  if (!known->is_own) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value) + " is somebody else's");
+  if (!owned_of(object, *known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value) + " is somebody else's");
   content_.clear();
   DeleteObjectMessage message{object.value};
   write(content_, message);
@@ -143,7 +143,8 @@ void Ambassador::retract(const RetractionHandle& handle) {
   say(RetractMessage{handle.number});
   const auto deletion = std::ranges::find(deletions_, handle.number, &Deletion::number);
   if (deletion == deletions_.end()) return;
-  own_[deletion->object % object_block] = deletion->known;
+  if (is_ours({deletion->object})) own_[deletion->object % object_block] = deletion->known;
+  else known_[{deletion->object}] = deletion->known;
   deletions_.erase(deletion);
 }
 
@@ -152,7 +153,7 @@ void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet a
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
   const ObjectClassHandle object_class{known->object_class};
   if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "in class " + fom_.at(object_class).name);
-  if (!known->is_own) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
+  if (!owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
   const AttributeSet before = timestamped(object, object_class);
   std::erase_if(order_changes_, [object](const auto& each) { return each.first == object.value; });
   order_changes_.emplace_back(object.value, order == Order::timestamp ? before | attributes : AttributeSet(before.bits & ~attributes.bits));

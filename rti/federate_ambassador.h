@@ -76,6 +76,22 @@ class FederateAmbassador {
   virtual void provide_attribute_value_update(ObjectHandle, AttributeSet) {}
   virtual void remove_object_instance(ObjectHandle) {}
 
+  /// Ownership management. These attributes look for an owner: acquire them, if available, or let them be.
+  virtual void request_attribute_ownership_assumption(ObjectHandle, AttributeSet, Bytes /*tag of the offer*/) {}
+  /// Somebody takes what this federate offered: it may confirm.
+  virtual void request_divestiture_confirmation(ObjectHandle, AttributeSet) {}
+  virtual void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet, Bytes /*tag of the confirmation*/) {}
+  virtual void attribute_ownership_unavailable(ObjectHandle, AttributeSet) {}
+  /// Somebody wants what this federate owns: it may divest, offer or deny, or let it wait.
+  virtual void request_attribute_ownership_release(ObjectHandle, AttributeSet, Bytes /*tag of the acquisition*/) {}
+  virtual void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle, AttributeSet) {}
+  virtual void inform_attribute_ownership(ObjectHandle, AttributeHandle, FederateHandle) {}
+  virtual void attribute_is_not_owned(ObjectHandle, AttributeHandle) {}
+  /// Beyond the standard, where services don't wait: which attributes a divestiture if wanted gave away; and which it, or a confirmation that came after the other had
+  /// lost interest, left here: they are owned again.
+  virtual void attribute_ownership_divested(ObjectHandle, AttributeSet) {}
+  virtual void attribute_ownership_kept(ObjectHandle, AttributeSet) {}
+
   virtual void receive_interaction(InteractionClassHandle, Bytes /*parameters*/, FederateHandle /*sender*/, const Stamp&) {}
 
   /// Time management. Grants and what is enabled come once for each service that asked; all messages that belong to a grant come before it.

@@ -58,6 +58,8 @@ struct FederationCounters {
   std::uint64_t updates_held_back = 0;  ///< records that a federate which doesn't read was not sent; its newest state follows when it does
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
+  std::uint64_t ownership_notices_sent = 0;  ///< objects told of; one that is told n things counts n times
+  std::uint64_t late_requests = 0;           ///< of objects that were deleted meanwhile: ignored
   std::uint64_t joins = 0, resigns = 0;
   std::uint64_t timed_received = 0, timed_sent = 0, time_advance_grants = 0, retractions = 0;  ///< messages in time-stamp order; time management
   std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`

@@ -93,6 +93,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   scratch_.insert(scratch_.end(), federate.tail.begin(), federate.tail.end());
   federate.control.clear();
   federate.tail.clear();
+  federate.tail_block.close();
   FederateInterest& interest = interest_.of(slot);
   if (interest.has_fresh && !is_held) {
     interest.fresh.clear();
@@ -123,6 +124,7 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot) {
       continue;
     }
     if (!interest.known.contains(event.slot)) say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    if (object.negotiation != Object::no_negotiation && !interest.known.contains(event.slot)) offer_to(slot, event.slot, ownership_.all(event.slot));
     interest.known.insert(event.slot);
     say(scratch_, InScopeMessage{object.handle.value});
   }
@@ -140,7 +142,7 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
     if (!object.is_alive) return;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
     if (set.is_empty()) return;
-    const Stamp& stamp = federates_[object.owner].newest;
+    const Stamp stamp = newest_of(fresh);
     if (!block || frame_stamp_ != stamp) {
       block.reset();
       write_stamp(stamp);

@@ -145,7 +145,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
 
 void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
   Federate& federate = federates_[slot];
-  objects_.for_each_in_block(federate.block, [this](ObjectSlot object) { delete_object(object); });
+  leave_objects(slot);
   interest_.remove_federate(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);

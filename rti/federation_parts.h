@@ -11,6 +11,8 @@
 #include "rti/federation_services.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
+#include "rti/wire/object_block.h"
+#include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
 #include "rti/buffering/buffering.h"
@@ -37,6 +39,8 @@ class FederationExecution::Parts {
     std::vector<bool> published_interactions, subscribed_interactions;    ///< by interaction class
     std::vector<std::byte> control;  ///< messages that go out before this flush's updates
     std::vector<std::byte> tail;     ///< and after them
+    ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
+    ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
     std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
     Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
     double last_said = 0.0;
@@ -106,12 +110,13 @@ class FederationExecution::Parts {
   Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
   Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome publish_object_class(Federate& federate, Reader& reader);
+  Outcome publish_object_class(std::uint32_t slot, Reader& reader);
   Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
   Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome register_object(std::uint32_t slot, Reader& reader);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
-  void delete_object(ObjectSlot object);
+  /// All who know it but `by` are told.
+  void delete_object(ObjectSlot object, std::uint32_t by);
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
@@ -135,6 +140,28 @@ class FederationExecution::Parts {
   void request_update(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region);
   Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
   Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
+
+  // Ownership (federation_ownership.cpp).
+  Outcome take_ownership(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome take_ownership_request(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle object);
+  Outcome query_ownership(std::uint32_t slot, Reader& reader);
+  /// The object that is meant, or no_object if it was deleted meanwhile, which is no crime.
+  Outcome find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object);
+  bool is_known_to(std::uint32_t slot, ObjectSlot object) const;
+  AttributeSet acquirable(std::uint32_t slot, ObjectSlot object) const;
+  void serve_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, AttributeSet attributes, Bytes tag);
+  void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, AttributeSet attributes, Bytes tag);
+  void ownership_moved(ObjectSlot object, const Stamp& newest);
+  Stamp newest_of(ObjectSlot object) const;
+  void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object, AttributeSet attributes, Bytes tag);
+  void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, Ownership::Events events, Bytes tag, const Stamp& newest);
+  void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);
+  void offer_to(std::uint32_t slot, ObjectSlot object, AttributeSet newly_published);
+  void say_last_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
+  void published_changed(std::uint32_t slot, std::uint16_t object_class, AttributeSet before);
+  template <class Visit>
+  void for_each_owned(std::uint32_t slot, Visit visit);
+  void leave_objects(std::uint32_t slot);
 
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
@@ -189,6 +216,8 @@ class FederationExecution::Parts {
   std::function<std::unique_ptr<TimeManagement>()> make_time_management_;
   ObjectTable objects_;
   Ownership ownership_;
+  std::vector<Stamp> inherited_;      ///< by object slot: the newest stamp of former owners; as long as the last object that changed hands
+  bool has_ownership_moved_ = false;  ///< else whatever a federate owns is in its block
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;

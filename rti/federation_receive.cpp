@@ -88,23 +88,28 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::timed_send:
     case MessageKind::retract:
     case MessageKind::query_time_bounds: return take_time(slot, kind, reader);
+    case MessageKind::ownership_request:
+    case MessageKind::query_ownership:
+    case MessageKind::resign_directive: return take_ownership(slot, kind, reader);
     default: return Violation::malformed;
   }
 }
 
 Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::publish_object_class) return publish_object_class(federates_[slot], reader);
+  if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
   if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
   return declare_interaction(slot, kind, reader);
 }
 
-Outcome FederationExecution::Parts::publish_object_class(Federate& federate, Reader& reader) {
+Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Reader& reader) {
   PublishObjectClassMessage message;
+  Federate& federate = federates_[slot];
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
   if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes))) return Violation::unknown_name;
-  federate.published[message.object_class] = AttributeSet(message.attributes);
+  const AttributeSet before = std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
+  published_changed(slot, message.object_class, before);
   return std::nullopt;
 }
 
@@ -174,16 +179,19 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
   if (object == no_object) return Violation::unknown_name;
-  if (objects_[object].owner != slot) return Violation::not_owned;
-  delete_object(object);
+  if (objects_[object].owner != slot && ownership_.owner_of(object, privilege_to_delete_object) != slot) return Violation::not_owned;
+  delete_object(object, slot);
   return std::nullopt;
 }
 
-void FederationExecution::Parts::delete_object(ObjectSlot object) {
+void FederationExecution::Parts::delete_object(ObjectSlot object, std::uint32_t by) {
   interest_.object_deleted(object);
+  ownership_.forget(object);
+  if (object < inherited_.size()) inherited_[object] = {};
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
+    if (i == by) continue;
     RemoveObjectMessage removal{objects_[object].handle.value};
     say(federates_[i].tail, removal);
     counters_.scope_bytes_sent += measure(removal);
@@ -218,8 +226,9 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
 
 Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values) {
   const ObjectSlot object = objects_.find(handle);
+  if (object == no_object && objects_.was_registered(handle)) return ++counters_.late_requests, std::nullopt;  // who may delete it did so meanwhile
   if (object == no_object || objects_[object].object_class != message.object_class) return Violation::unknown_name;
-  if (objects_[object].owner != slot) return Violation::not_owned;
+  if (objects_[object].owner != slot && !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes))) return Violation::not_owned;
   Federate& owner = federates_[slot];
   owner.newest = *owner.stamp;
   objects_.store(object, AttributeSet(message.attributes), values);

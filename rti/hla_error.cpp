@@ -63,6 +63,7 @@ const char* to_string(HlaError error) {
     case HlaError::rti_internal_error: return "RTIinternalError";
     case HlaError::asynchronous_delivery_already_enabled: return "AsynchronousDeliveryAlreadyEnabled";
     case HlaError::asynchronous_delivery_already_disabled: return "AsynchronousDeliveryAlreadyDisabled";
+    case HlaError::no_acquisition_pending: return "NoAcquisitionPending";
   }
   return "unknown error";
 }

@@ -68,6 +68,7 @@ enum class HlaError : std::uint8_t {
   rti_internal_error,
   asynchronous_delivery_already_enabled,
   asynchronous_delivery_already_disabled,
+  no_acquisition_pending,
 };
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);

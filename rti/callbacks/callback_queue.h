@@ -83,6 +83,31 @@ class CallbackQueue final : public FederateAmbassador {
     put<&FederateAmbassador::receive_interaction_with_time>(interaction_class, parameters, sender, timed);
   }
   void remove_object_instance_with_time(ObjectHandle object, const TimedStamp& timed) override { put<&FederateAmbassador::remove_object_instance_with_time>(object, timed); }
+  // Ownership.
+  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+    put<&FederateAmbassador::request_attribute_ownership_assumption>(object, attributes, tag);
+  }
+  void request_divestiture_confirmation(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::request_divestiture_confirmation>(object, attributes);
+  }
+  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+    put<&FederateAmbassador::attribute_ownership_acquisition_notification>(object, attributes, tag);
+  }
+  void attribute_ownership_unavailable(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::attribute_ownership_unavailable>(object, attributes);
+  }
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+    put<&FederateAmbassador::request_attribute_ownership_release>(object, attributes, tag);
+  }
+  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::confirm_attribute_ownership_acquisition_cancellation>(object, attributes);
+  }
+  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override {
+    put<&FederateAmbassador::inform_attribute_ownership>(object, attribute, owner);
+  }
+  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override { put<&FederateAmbassador::attribute_is_not_owned>(object, attribute); }
+  void attribute_ownership_divested(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::attribute_ownership_divested>(object, attributes); }
+  void attribute_ownership_kept(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::attribute_ownership_kept>(object, attributes); }
 
  private:
   /// A record: this, then the arguments, each at a multiple of `alignment`.

@@ -45,6 +45,11 @@ class Ownership {
   AttributeSet owned_by_others(std::uint32_t federate, ObjectSlot object) const;
   /// The owner of one attribute, or no_federate.
   std::uint32_t owner_of(ObjectSlot object, AttributeHandle attribute) const;
+  /// Calls `visit(federate)` for each owner of a divided object.
+  template <class Visit>
+  void for_each_owner(ObjectSlot object, Visit visit) const {
+    for (const Share& each : find(object)->shares) visit(each.federate);
+  }
   AttributeSet offered(ObjectSlot object) const;
   /// Of those: whose owner was asked to confirm, since somebody takes them.
   AttributeSet confirming(ObjectSlot object) const;

@@ -36,10 +36,11 @@ enum class MessageKind : std::uint8_t {
   register_object, delete_object, updates, interaction, create_region, modify_regions, associate_region, delete_region,
   stamp,
   enable_time_regulation = 28, time_switch = 29, modify_lookahead = 30, advance_request = 31, timed_send = 32, retract = 33, query_time_bounds = 34,
+  ownership_request = 36, query_ownership = 37, resign_directive = 38,
   create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
   // federation management
   create_federation_execution = 20, destroy_federation_execution = 21, list_federation_executions = 22, query_management = 23,
-  // free: 24 to 27 federation management, 35 time, 36 to 45 ownership, 46 to 49 objects and declarations, 60 to 63 the connection
+  // free: 24 to 27 federation management, 35 time, 39 to 45 ownership, 46 to 49 objects and declarations, 60 to 62 the connection
   // baselines
   acknowledge_keyframe = 50, refuse_keyframe = 51,
   acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
@@ -55,9 +56,10 @@ enum class MessageKind : std::uint8_t {
   federation_report = 78, federate_report = 79, report_end = 80,
   // baselines
   begin_keyframe = 110, deltas = 111,
+  ownership_notice = 92, inform_ownership = 93,
   // admission
   challenge = 118, admitted = 119,
-  // free: 81 federation management, 88 to 91 time, 92 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
+  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.

@@ -150,13 +150,47 @@ class Recorder : public FederateAmbassador {
       known.values[i] = {value.begin(), value.end()};
     }
   }
-  void attributes_in_scope(ObjectHandle object) override { objects.at(object.value).is_in_scope = true; }
+  /// What it registered itself and gave away was never discovered.
+  void attributes_in_scope(ObjectHandle object) override { objects.try_emplace(object.value, Known{vessel, "", false, {}, 0, {}}).first->second.is_in_scope = true; }
   void attributes_out_of_scope(ObjectHandle object) override { objects.at(object.value).is_in_scope = false; }
-  void remove_object_instance(ObjectHandle object) override { objects.erase(object.value); }
+  void remove_object_instance(ObjectHandle object) override {
+    objects.erase(object.value);
+    std::erase_if(pending, [object](const auto& each) { return each.first == object.value; });
+  }
   void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle, const Stamp&) override {
     interactions.emplace_back(interaction_class.value, text_of(parameters));
   }
   int out_of_scope_updates = 0;
+
+  // Ownership: what, object, attributes as bits, tag.
+  void request_attribute_ownership_assumption(ObjectHandle object, AttributeSet set, Bytes tag) override { note("assume", object, set, tag); }
+  void request_divestiture_confirmation(ObjectHandle object, AttributeSet set) override { note("confirm", object, set); }
+  void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set, Bytes tag) override { note("acquired", object, set, tag); }
+  void attribute_ownership_unavailable(ObjectHandle object, AttributeSet set) override { note("unavailable", object, set); }
+  void request_attribute_ownership_release(ObjectHandle object, AttributeSet set, Bytes tag) override { note("release", object, set, tag); }
+  void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle object, AttributeSet set) override { note("cancelled", object, set); }
+  void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override {
+    owners[{object.value, attribute.value}] = owner.value;
+  }
+  void attribute_is_not_owned(ObjectHandle object, AttributeHandle attribute) override { owners[{object.value, attribute.value}] = FederateHandle::none; }
+  void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override { note("divested", object, set); }
+  void attribute_ownership_kept(ObjectHandle object, AttributeSet set) override { note("kept", object, set); }
+  void note(const char* what, ObjectHandle object, AttributeSet set, Bytes tag = {}) {
+    ownership.push_back({what, object.value, set.bits, text_of(tag)});
+    for (std::uint32_t i = 0; i < attribute_max; ++i) {
+      if (!set.contains({i}) || what == std::string_view("kept")) continue;
+      if (what == std::string_view("acquired") || what == std::string_view("unavailable") || what == std::string_view("cancelled")) pending.erase({object.value, i});
+    }
+  }
+  struct OwnershipNote {
+    std::string what;
+    std::uint32_t object, attributes;
+    std::string tag;
+    friend bool operator==(const OwnershipNote&, const OwnershipNote&) = default;
+  };
+  std::vector<OwnershipNote> ownership;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> owners;  ///< as answered to queries, by object and attribute
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pending;                ///< what the test noted as being acquired, until its end was told
 };
 
 enum class Carrier { in_process, tcp, virtual_network };

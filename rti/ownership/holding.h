@@ -1,0 +1,47 @@
+// What a federate's side knows of its part in one object's ownership.
+#pragma once
+
+#include <cstdint>
+
+#include "rti/fom/attribute_set.h"
+
+namespace rink::rti {
+
+/// What becomes of what a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and 10.4); the numbers are those on the wire.
+enum class ResignAction : std::uint8_t {
+  unconditionally_divest_attributes,
+  delete_objects,                        ///< those whose deletion it may order
+  cancel_pending_ownership_acquisitions,
+  delete_objects_then_divest,
+  cancel_then_delete_then_divest,        ///< the default, also for a federate that is lost
+  no_action,
+};
+
+/// Kept only while a federate owns some but not all of an object, or negotiates about it. What it gave up by its own word it holds no longer, whatever the RTI answers;
+/// should nobody have taken it after all, the RTI gives it back.
+struct Holding {
+  AttributeSet owned;
+  AttributeSet offered;               ///< negotiated divestiture under way
+  AttributeSet confirmable;           ///< of those: the RTI asked for the confirmation
+  AttributeSet acquiring;             ///< by attribute ownership acquisition
+  AttributeSet acquiring_if_available;
+  AttributeSet pending() const { return acquiring | acquiring_if_available; }
+
+  void gain(AttributeSet attributes) {
+    owned = owned | attributes;
+    offered = offered.without(attributes);
+    confirmable = confirmable.without(attributes);
+    end_acquisition(attributes);
+  }
+  void lose(AttributeSet attributes) {
+    owned = owned.without(attributes);
+    offered = offered.without(attributes);
+    confirmable = confirmable.without(attributes);
+  }
+  void end_acquisition(AttributeSet attributes) {
+    acquiring = acquiring.without(attributes);
+    acquiring_if_available = acquiring_if_available.without(attributes);
+  }
+};
+
+}  // namespace rink::rti

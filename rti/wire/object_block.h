@@ -1,0 +1,57 @@
+// Blocks of objects on the wire: what is said of many objects in the same words is said once (docs/wire.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/wire/message.h"
+#include "rti/wire/update_block.h"
+
+namespace rink::rti {
+
+/// Most bytes that an object adds to a block, its end included.
+inline constexpr std::size_t object_record_max = 5 + 1;
+
+/// Writes blocks: a header, then the step to each object, then a zero. An object joins the block before it if that stands at the end of the buffer and has an equal
+/// header, so that handing over a thousand bodies takes a thousand bytes and callers need no bulk form.
+class ObjectBlockWriter {
+ public:
+  template <class Header>
+  void append(std::vector<std::byte>& bytes, Header header, std::uint32_t object) {
+    scratch_.clear();
+    write(scratch_, header);
+    if (end_ != 0 && end_ == bytes.size() && scratch_ == header_) {
+      bytes.pop_back();
+    } else {
+      bytes.insert(bytes.end(), scratch_.begin(), scratch_.end());
+      header_.swap(scratch_);
+      previous_ = 0;
+    }
+    std::uint64_t step = handle_step(previous_, object);
+    Writer(bytes).varint(step);
+    bytes.push_back(std::byte{0});
+    previous_ = object;
+    end_ = bytes.size();
+  }
+  /// The next object begins a block. Call it whenever the buffer was cleared.
+  void close() { end_ = 0; }
+
+ private:
+  std::vector<std::byte> header_, scratch_;
+  std::size_t end_ = 0;
+  std::uint32_t previous_ = 0;
+};
+
+/// Calls `take(object)` for each object of the block whose header was read; `take` returns false to stop. False if the block is malformed or was stopped.
+template <class Take>
+bool read_objects(Reader& reader, Take take) {
+  HandleReader handles;
+  for (;;) {
+    std::uint32_t handle = 0;
+    const HandleReader::Next next = handles.next(reader, handle);
+    if (next != HandleReader::Next::handle) return next == HandleReader::Next::end;
+    if (!take(ObjectHandle{handle})) return false;
+  }
+}
+
+}  // namespace rink::rti
