@@ -45,7 +45,7 @@ struct FederationSettings {
   std::uint32_t objects_per_federate_max = object_block;
   std::uint32_t timed_max = 1u << 20;       ///< messages in time-stamp order that wait for somebody, or can still be taken back
   Patience patience;
-  std::uint32_t keyframe_period = 2;        ///< every so many flushes with periodic state are a keyframe (docs/wire.md, "Baselines")
+  std::uint32_t keyframe_period = 1;        ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")
 };
 
 struct FederationCounters {

@@ -10,7 +10,7 @@
 namespace rink::rti {
 
 /// Keyframes that an RTI may refer to: those of the last so many numbers.
-inline constexpr std::uint16_t keyframe_window = 16;
+inline constexpr std::uint16_t keyframe_window = 32;
 
 /// The last few keyframes, each with the counts of its objects. Its memory follows what was sent since the oldest keyframe that the RTI still refers to.
 class KeyframeMemory {
