@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rti/transport/network_conditions.h"
+
 namespace rink::loadgen {
 
 /// An experiment that cannot be run; the message names file, line, key, what stands there and what is allowed.
@@ -71,7 +73,9 @@ struct Experiment {
   std::vector<std::uint32_t> pucks{0}, bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
   double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
   TransportKind transport = TransportKind::tcp;
-  double delay_ms = 10.0;        ///< one way, in virtual time; 0 to 10,000
+  double delay_ms = 10.0;        ///< one way, in virtual time; 0 to 10,000; with a network the greater of its latencies
+  rti::NetworkConditions network;       ///< in virtual time; partitions count from the game's start. Without [network] `delay_ms` and nothing else
+  bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
   Relevance relevance = Relevance::rectangle;
   std::string baseline_scheme = "none", baseline_policy = "periodic";  ///< what ratios refer to; read from a file that compares neither: the first of its lists

@@ -20,6 +20,7 @@
 #include "loadgen/game_plan.h"
 #include "loadgen/results.h"
 #include "loadgen/truth/truth.h"
+#include "rti/transport/network_model.h"
 #include "rti/transport/virtual_network.h"
 
 namespace rink::loadgen {
@@ -59,6 +60,8 @@ class VirtualRun {
 
  private:
   static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys);
+  static rti::NetworkConditions network_conditions(const Experiment& experiment, const Cell& cell);
+  std::int64_t settling_ns() const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
@@ -76,7 +79,7 @@ class VirtualRun {
   const RunnerSettings& settings_;
   const Experiment& experiment_;
   const Cell& cell_;
-  rti::ConstantDelay link_;
+  rti::NetworkModel model_;
   rti::VirtualNetwork network_;
   rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
   game::Serving serving_;
@@ -91,6 +94,24 @@ game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, c
   game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / experiment.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
   return settings;
+}
+
+/// Each replication meets fates of its own. Cuts count from the start, which is not known yet.
+rti::NetworkConditions VirtualRun::network_conditions(const Experiment& experiment, const Cell& cell) {
+  rti::NetworkConditions conditions = experiment.network;
+  if (!experiment.network_is_modelled) conditions.to_listener.latency_ns = conditions.from_listener.latency_ns = nanoseconds(1e-3 * experiment.delay_ms);
+  conditions.seed = rti::LinkStream::key_of(conditions.seed, cell.seed);
+  conditions.partitions.clear();
+  return conditions;
+}
+
+/// What one packet may take, once or twice lost, the wait for others apart. Nobody speaks meanwhile at the end, so four of these must stay below the RTI's patience.
+std::int64_t VirtualRun::settling_ns() const {
+  const rti::NetworkConditions& network = experiment_.network;
+  const std::int64_t delay_ns = nanoseconds(1e-3 * experiment_.delay_ms);
+  if (!experiment_.network_is_modelled) return delay_ns;
+  const std::int64_t longest_ns = std::max({delay_ns, network.to_listener.longest_ns(), network.from_listener.longest_ns()});
+  return std::max(delay_ns, std::min(longest_ns + 2 * rti::NetworkModel::timeout_min_ns, second_ns));
 }
 
 BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const Cell& cell) {
@@ -110,8 +131,8 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
-      link_(nanoseconds(1e-3 * experiment.delay_ms)),
-      network_(link_),
+      model_(network_conditions(experiment, cell)),
+      network_(model_),
       serving_(fom, scene, server_settings(experiment, cell, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
                [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
@@ -120,6 +141,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
     serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = experiment.warm_up_s + experiment.duration_s}, experiment.tick_rate_hz);
     crowd_.collect_evidence(cell.seed);
   }
+  if (experiment.network_carries_datagrams) network_.carry_datagrams();
   server_end_.listen(server_name);
   serving_.host().add(server_end_);
 }
@@ -146,7 +168,7 @@ void VirtualRun::advance_until(std::int64_t until_ns) {
 template <class Condition>
 void VirtualRun::await(const std::string& what, Condition is_met) {
   constexpr std::int64_t steps_max = 64;
-  const std::int64_t step_ns = nanoseconds(1.0 / experiment_.tick_rate_hz), limit_ns = network_.now_ns() + steps_max * (step_ns + nanoseconds(1e-3 * experiment_.delay_ms));
+  const std::int64_t step_ns = nanoseconds(1.0 / experiment_.tick_rate_hz), limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns() + (experiment_.network_is_modelled ? second_ns : 0));
   game::TickCosts uncounted;
   while (!is_met()) {
     heed_interrupt();
@@ -167,6 +189,11 @@ void VirtualRun::start() {
   server_.call_to_start();
   await("the start barrier", [this] { return server_.is_started(); });
   start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;  // a whole second: sums with it are rounded least
+  for (rti::Partition cut : experiment_.network.partitions) {
+    cut.from_ns += start_ns_;
+    cut.until_ns += start_ns_;
+    model_.add(cut);
+  }
 }
 
 void VirtualRun::play() {
@@ -186,7 +213,7 @@ void VirtualRun::play() {
   }
   end_ = counts_of(serving_, server_end_.totals());
   measured_until_ns_ = network_.now_ns();
-  advance_until(start_ns_ + nanoseconds(played_s) + 4 * nanoseconds(1e-3 * experiment_.delay_ms) + 1);  // the last answers
+  advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns() + 1);  // the last answers
 }
 
 void VirtualRun::run() {
@@ -212,6 +239,11 @@ Json VirtualRun::server_report() const {
               {"valid", why.empty()},
               {"why_invalid", why}};
   report.update(counted_report(serving_, begin_, end_));
+  if (experiment_.network_is_modelled) {
+    const rti::NetworkCounters& counted = model_.counters();
+    report["network"] = {{"segments", counted.segments}, {"datagrams", counted.datagrams}, {"lost", counted.lost}, {"cut", counted.cut}, {"dropped", counted.dropped},
+                         {"retransmitted", counted.retransmitted}, {"held", counted.held}, {"duplicated", counted.duplicated}};
+  }
   return report;
 }
 
@@ -237,8 +269,7 @@ void VirtualRun::write_evidence(const std::string& server_file, const std::strin
 
 void VirtualRun::end(Json& server_report) {
   crowd_.resign();
-  const std::int64_t delay_ns = nanoseconds(1e-3 * experiment_.delay_ms);
-  advance_until(network_.now_ns() + 2 * delay_ns);
+  advance_until(network_.now_ns() + 2 * settling_ns());
   game::add_totals(server_report, server_end_.totals());
 }
 

@@ -10,7 +10,7 @@
 
 namespace rink::loadgen {
 
-/// Runs `cell` as `run_cell` does, over a network of constant delay `experiment.delay_ms` instead of loopback and with ticks at their exact instants; computing takes
+/// Runs `cell` as `run_cell` does, over the experiment's modelled network instead of loopback and with ticks at their exact instants; computing takes
 /// no time. Writes the same reports; what needs a real clock, a process or a kernel is null in them. The same arguments give the same bytes. Throws ExperimentError if
 /// the scene or the key log cannot be read. Nothing if it was interrupted.
 std::optional<RunRecord> run_virtual_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);

@@ -176,7 +176,7 @@ std::vector<SceneTable> SceneTable::tables(const char* key) {
 void SceneTable::finish() const {
   for (const auto& [key, node] : table_) {
     if (asked_.contains(key.str())) continue;
-    const auto nearest = std::min_element(asked_.begin(), asked_.end(), [&](const auto& a, const auto& b) { return edits(a, key.str()) < edits(b, key.str()); });
+    const auto nearest = std::min_element(asked_.begin(), asked_.end(), [word = key.str()](const auto& a, const auto& b) { return edits(a, word) < edits(b, word); });
     std::string known;
     for (const std::string& word : asked_) known += (known.empty() ? "" : ", ") + word;
     const bool is_near = nearest != asked_.end() && edits(*nearest, key.str()) <= std::max<std::size_t>(2, key.str().size() / 3);

@@ -1,0 +1,209 @@
+// Strangers against a witness, and the RTI's voice against a federate.
+#include "tests/fuzz/federation_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+
+#include "tests/fuzz/harness.h"
+#include "tests/rti/rig.h"
+
+namespace rink::fuzz {
+namespace {
+
+using namespace rti;
+using rti::testing::harbour;
+using rti::testing::Recorder;
+
+constexpr ConnectionId strangers = 3;
+const AttributeSet all{rti::testing::position, rti::testing::speed};
+
+void frame(std::vector<std::byte>& into, Bytes payload) {
+  const auto length = static_cast<std::uint32_t>(payload.size());
+  const auto* at = reinterpret_cast<const std::byte*>(&length);
+  into.insert(into.end(), at, at + sizeof length);
+  into.insert(into.end(), payload.begin(), payload.end());
+}
+
+class Scene final : public Outlet {
+ public:
+  Scene() : execution_(harbour(), {.federation = "rink", .filter = "region", .filter_settings = {}, .federate_max = 8, .object_max = 64, .objects_per_federate_max = 16, .patience = {}}) {
+    execution_.connect(0);
+    witness_.join("rink", "witness", "tester");
+    tick();
+    witness_.watch_federates();
+    for (const ObjectClassHandle each : {rti::testing::vessel, rti::testing::ferry}) {
+      witness_.publish_object_class_attributes(each, all);
+      witness_.subscribe_object_class_attributes(each, each == rti::testing::ferry ? AttributeSet{rti::testing::position, rti::testing::speed, rti::testing::destination} : all);
+    }
+    witness_.subscribe_interaction_class(rti::testing::hail);
+    own_ = witness_.register_object_instance(rti::testing::vessel, "own");
+    tick();
+    require(witness_.is_joined(), "the witness is joined");
+  }
+
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    for (const Bytes part : parts)
+      if (connection == 0) require(witness_.receive(part), "the witness understands what it hears");
+  }
+  void drop(ConnectionId connection, std::string_view) override {
+    require(connection != 0, "the witness stays");
+    is_connected_[connection] = false;
+  }
+
+  void tick() {
+    witness_.advance_clock(now_);
+    execution_.receive(0, witness_.outgoing());
+    witness_.clear_outgoing();
+    execution_.advance_clock(now_);
+    execution_.match();
+    execution_.flush(*this);
+  }
+
+  void turn(Input& input) {
+    const unsigned first = input.byte();
+    const ConnectionId who = 1 + first % strangers;
+    switch (first / strangers % 8) {
+      case 0: case 1: case 2: case 3: return say_frame(who, input);
+      case 4: return say(who, input.part(input.byte()));
+      case 5: return enter(who, input.byte());
+      case 6: return leave(who);
+      default: return pass(input.byte());
+    }
+  }
+
+  void end() {
+    for (ConnectionId who = 1; who <= strangers; ++who) leave(who);
+    tick();
+    tick();
+    require(execution_.federate_count() == 1, "the strangers are gone");
+    require(execution_.object_count() <= 1, "so are their objects");
+    for (const auto& [handle, known] : heard_.objects) require(handle == own_.value, "of which the witness has been told");
+    require(heard_.out_of_scope_updates == 0, "updates come in scope");
+  }
+
+ private:
+  bool has(ConnectionId who) {
+    if (!is_connected_[who]) return false;
+    return true;
+  }
+  void say(ConnectionId who, Bytes bytes) {
+    if (has(who)) execution_.receive(who, bytes);
+  }
+  void say_frame(ConnectionId who, Input& input) {
+    const unsigned size = input.byte();
+    spoken_.clear();
+    frame(spoken_, input.part(size));
+    if (spoken_.size() > frame_header_size) say(who, spoken_);
+  }
+  /// A join as it should be, which no fuzzer would find.
+  void enter(ConnectionId who, unsigned name) {
+    if (is_connected_[who]) return;
+    is_connected_[who] = true;
+    execution_.connect(who);
+    const std::string names = "federate " + std::to_string(name % 4);
+    JoinMessage join;
+    join.fom_hash = harbour().hash();
+    join.federation = "rink";
+    join.name = names;
+    join.type = "stranger";
+    std::vector<std::byte> payload;
+    write(payload, join);
+    spoken_.clear();
+    frame(spoken_, payload);
+    execution_.receive(who, spoken_);
+  }
+  void leave(ConnectionId who) {
+    if (is_connected_[who]) execution_.disconnect(who, "left");
+    is_connected_[who] = false;
+  }
+  void pass(unsigned eighths) {
+    now_ += 0.125 * std::min(eighths, 8u);  // the witness speaks in time
+    tick();
+  }
+
+  FederationExecution execution_;
+  Recorder heard_;
+  Ambassador witness_{harbour(), heard_};
+  ObjectHandle own_;
+  std::array<bool, strangers + 1> is_connected_{};
+  std::vector<std::byte> spoken_;
+  double now_ = 0.0;
+};
+
+/// A federate that is told what cannot be stops here: the recorder knows what it knows.
+class Suspicious : public Recorder {
+ public:
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+    require(!objects.contains(object.value), "an object is discovered once");
+    require(object_class.value < harbour().object_classes().size(), "its class exists");
+    Recorder::discover_object_instance(object, object_class, name);
+  }
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp& stamp) override {
+    require(objects.contains(object.value), "a reflected object is known");
+    require(harbour().values_fit(objects.at(object.value).object_class, set, values), "and its values fit");
+    Recorder::reflect_attribute_values(object, set, values, stamp);
+  }
+  void attributes_in_scope(ObjectHandle object) override { require(objects.contains(object.value), "what comes into scope is known"); }
+  void attributes_out_of_scope(ObjectHandle object) override { require(objects.contains(object.value), "what leaves scope is known"); }
+  void remove_object_instance(ObjectHandle object) override { require(objects.erase(object.value) == 1, "what is removed was known"); }
+  void receive_interaction(InteractionClassHandle interaction_class, Bytes, FederateHandle, const Stamp&) override {
+    require(interaction_class.value < harbour().interaction_classes().size(), "its class exists");
+  }
+};
+
+void act(Ambassador& ambassador, unsigned what, std::vector<ObjectHandle>& own) {
+  if (!ambassador.is_joined()) return;
+  if (what % 4 == 0) {
+    ambassador.publish_object_class_attributes(rti::testing::vessel, all);
+    own.push_back(ambassador.register_object_instance(rti::testing::vessel));
+  } else if (what % 4 == 1 && !own.empty() && own.back()) {
+    ambassador.update_attribute_values(own.back(), all, rti::testing::values_of(1.0f, 2.0f, 3.0f), {0.5, 0});
+  } else if (what % 4 == 2 && !own.empty() && own.back()) {
+    ambassador.delete_object_instance(own.back());
+    own.pop_back();
+  } else {
+    ambassador.subscribe_object_class_attributes(rti::testing::vessel, all);
+  }
+}
+
+}  // namespace
+
+void drive_federation(Bytes bytes) {
+  Input input(bytes);
+  Scene scene;
+  while (!input.is_empty()) scene.turn(input);
+  scene.end();
+}
+
+void drive_federate(Bytes bytes) {
+  Input input(bytes);
+  Suspicious heard;
+  Ambassador ambassador(harbour(), heard);
+  ambassador.join("rink", "fuzzed", "tester");
+  std::vector<std::byte> spoken, payload;
+  JoinedMessage joined{.federate = 1, .object_block = input.byte()};
+  write(payload, joined);
+  frame(spoken, payload);
+  require(ambassador.receive(spoken), "a join is understood");
+  std::vector<ObjectHandle> own;
+  while (!input.is_empty()) {
+    const unsigned what = input.byte();
+    if (what >= 240) {
+      act(ambassador, what, own);
+      continue;
+    }
+    spoken.clear();
+    if (what >= 200) {
+      const Bytes bare = input.part(input.byte());
+      spoken.assign(bare.begin(), bare.end());
+    } else {
+      frame(spoken, input.part(what + 1));
+    }
+    if (!ambassador.receive(spoken)) return require(!heard.lost.empty(), "who does not understand says why");
+    ambassador.clear_outgoing();
+  }
+}
+
+}  // namespace rink::fuzz

@@ -1,0 +1,16 @@
+// A federation in which some federates speak by rule and others say whatever a fuzzer makes up.
+#pragma once
+
+#include "rti/wire/bytes.h"
+
+namespace rink::fuzz {
+
+/// Bytes are turns: whose, what (a frame, bare bytes, a join, leaving, time, a tick), and its content. Whatever strangers say, the witness hears only what is in order,
+/// and once they are gone, nothing of theirs is left.
+void drive_federation(rti::Bytes input);
+
+/// Bytes are frames from the RTI to a federate that joins, declares and registers between them. It believes them or loses its connection, and never tells its
+/// federate of what cannot be: an update of an object that is not known, a discovery of one that is.
+void drive_federate(rti::Bytes input);
+
+}  // namespace rink::fuzz

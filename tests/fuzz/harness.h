@@ -1,0 +1,54 @@
+// What is fuzzed: one function for each reader of bytes from elsewhere, run by libFuzzer and, over the kept corpus, by a test.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+#include "rti/wire/bytes.h"
+
+namespace rink::fuzz {
+
+/// Takes any bytes at all. Returns if the reader did what it promises, aborts or trips a sanitizer if not.
+struct Harness {
+  const char* name;
+  void (*run)(rti::Bytes input);
+};
+
+/// Of the RTI and of the game, both lists one after the other.
+std::span<const Harness> rti_harnesses();
+std::span<const Harness> game_harnesses();
+
+/// Stands in all builds, unlike an assertion.
+inline void require(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "does not hold: %s\n", what);
+  std::abort();
+}
+
+/// Takes numbers and parts off the front of an input; zeros and nothing once it is used up.
+class Input {
+ public:
+  explicit Input(rti::Bytes bytes) : bytes_(bytes) {}
+  bool is_empty() const { return bytes_.empty(); }
+  unsigned byte() {
+    if (bytes_.empty()) return 0;
+    const auto value = static_cast<unsigned>(bytes_.front());
+    bytes_ = bytes_.subspan(1);
+    return value;
+  }
+  rti::Bytes part(std::size_t size) {
+    const rti::Bytes part = bytes_.first(std::min(size, bytes_.size()));
+    bytes_ = bytes_.subspan(part.size());
+    return part;
+  }
+  rti::Bytes rest() { return part(bytes_.size()); }
+
+ private:
+  rti::Bytes bytes_;
+};
+
+inline std::string text_of(rti::Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+}  // namespace rink::fuzz

@@ -1,0 +1,141 @@
+// The readers of the RTI: whole federations, frames, blocks of updates, bits, object models and federation files.
+#include <array>
+#include <cstring>
+
+#include "rti/federation_directory.h"
+#include "rti/federation_file.h"
+#include "rti/wire/bit_stream.h"
+#include "rti/wire/frame.h"
+#include "rti/wire/update_block.h"
+#include "tests/fuzz/federation_scene.h"
+#include "tests/fuzz/harness.h"
+#include "tests/rti/fjord.h"
+#include "tests/rti/rig.h"
+
+namespace rink::fuzz {
+namespace {
+
+using namespace rti;
+
+/// A stream cut anywhere gives the frames that it gives in one piece.
+void frames(Bytes bytes) {
+  const auto frames_of = [](Bytes stream, std::size_t step) {
+    FrameReader reader;
+    std::vector<std::byte> heard;
+    bool is_sound = true;
+    for (std::size_t at = 0; at < stream.size() && is_sound; at += step) {
+      const Bytes piece = stream.subspan(at, std::min(step, stream.size() - at));
+      is_sound = reader.receive(piece, [] { return std::size_t{1000}; }, [&heard](Bytes frame) {
+        require(!frame.empty() && frame.size() <= 1000, "frames have their size");
+        heard.insert(heard.end(), frame.begin(), frame.end());
+        heard.push_back(std::byte{'|'});
+        return true;
+      });
+      require(reader.waiting_bytes() <= 1004, "no more than a frame is kept");
+    }
+    return heard;
+  };
+  Input input(bytes);
+  const std::size_t step = 1 + input.byte() % 16;
+  const Bytes stream = input.rest();
+  require(frames_of(stream, step) == frames_of(stream, stream.size() + 1), "cuts change nothing");
+}
+
+/// What a block gives, written again, is read as the same.
+void update_blocks(Bytes bytes) {
+  Input input(bytes);
+  const auto& classes = rti::testing::fjord().object_classes();
+  const ObjectClass& object_class = classes[input.byte() % classes.size()];
+  const AttributeSet set(input.byte() & ((1u << object_class.attributes.size()) - 1u));
+  if (set.is_empty()) return;
+  struct Record {
+    std::uint32_t object;
+    std::vector<std::byte> values;
+    bool operator==(const Record&) const = default;
+  };
+  const auto records_of = [&](Bytes block, std::vector<Record>& records) {
+    Reader reader(block);
+    return read_records(reader, object_class, set, [&](auto object, Bytes values) {
+      std::uint32_t handle = 0;
+      static_assert(sizeof object == sizeof handle);
+      std::memcpy(&handle, &object, sizeof handle);
+      records.push_back({handle, {values.begin(), values.end()}});
+      std::vector<std::byte> decoded;
+      if (decode(object_class, set, values, 0.0, decoded)) {
+        std::vector<std::byte> coded, again;
+        encode(object_class, set, decoded, 0.0, coded);
+        require(coded_size(object_class, set, coded) == coded.size(), "a coded value ends by itself");
+        require(decode(object_class, set, coded, 0.0, again) && again == decoded, "what was decoded keeps its value");
+      }
+      return true;
+    });
+  };
+  std::vector<Record> records, again;
+  if (!records_of(input.rest(), records)) return;
+  std::vector<std::byte> block;
+  {
+    RecordWriter writer(block);
+    for (const Record& record : records) writer.add(record.object, record.values);
+  }
+  require(records_of(block, again) && again == records, "a block that is written again is the same");
+}
+
+void object_models(Bytes bytes) {
+  try {
+    const Fom fom = Fom::parse(text_of(bytes), "fuzzed.xml");
+    fom.hash();
+  } catch (const FileError& error) {
+    require(std::strncmp(error.what(), "fuzzed.xml", 10) == 0, "a complaint names the file");
+  }
+}
+
+void federation_files(Bytes bytes) {
+  try {
+    const FederationFile file = parse_federation_file(text_of(bytes), "fuzzed.toml");
+    require(!file.nodes.empty(), "a federation has a node");
+    for (const Node& node : file.nodes) require(node.port > 0, "a node has a port");
+  } catch (const FileError& error) {
+    require(std::strncmp(error.what(), "fuzzed.toml", 11) == 0, "a complaint names the file");
+  }
+}
+
+/// Conversations with a host of many federations.
+void directories(Bytes bytes) {
+  struct Silent final : Outlet {
+    void send(ConnectionId, std::span<const Bytes>) override {}
+    void drop(ConnectionId connection, std::string_view) override { is_connected[connection] = false; }
+    std::array<bool, 4> is_connected{};
+  } outlet;
+  FederationDirectory directory;
+  directory.offer(rti::testing::harbour());
+  require(directory.create("rink", rti::testing::harbour().hash()) == HlaError::none, "the first name is free");
+  Input input(bytes);
+  while (!input.is_empty()) {
+    const unsigned what = input.byte();
+    const ConnectionId who = what % 4;
+    if (!outlet.is_connected[who]) directory.connect(who);
+    outlet.is_connected[who] = true;
+    if (what / 4 % 4 == 3) {
+      directory.match();
+      directory.flush(outlet);
+    } else {
+      directory.receive(who, input.part(input.byte()));
+    }
+  }
+  require(directory.find("rink") != nullptr || directory.list().size() <= 1024, "no more executions than allowed");
+}
+
+}  // namespace
+
+std::span<const Harness> rti_harnesses() {
+  static constexpr std::array<Harness, 7> list{{{"federation", drive_federation},
+                                                {"federate", drive_federate},
+                                                {"directory", directories},
+                                                {"frames", frames},
+                                                {"update_block", update_blocks},
+                                                {"object_model", object_models},
+                                                {"federation_file", federation_files}}};
+  return list;
+}
+
+}  // namespace rink::fuzz

@@ -1,0 +1,310 @@
+"""Reads a recorded conversation with the RTI by docs/wire.md alone, and prints each message as one line. Python's standard library only.
+
+    second_reader.py MODEL.xml SESSION
+
+SESSION is a sequence of records: 'u' (from the federate) or 'd' (from the RTI), connection u32, length u32, bytes. The lines of one connection and direction stand
+together, in the order in which they were sent. Whatever the page does not explain ends the program with an error: every byte is accounted for.
+"""
+import math
+import struct
+import sys
+import xml.etree.ElementTree as ElementTree
+
+ALL_ONES = 0xFFFFFFFF
+BASIC_SIZES = {"HLAbyte": 1, "HLAASCIIchar": 1, "HLAoctet": 1, "HLAoctetPairLE": 2, "HLAoctetPairBE": 2, "HLAunicodeChar": 2, "HLAboolean": 4,
+               "HLAinteger16LE": 2, "HLAinteger16BE": 2, "HLAinteger32LE": 4, "HLAinteger32BE": 4, "HLAinteger64LE": 8, "HLAinteger64BE": 8,
+               "HLAfloat32LE": 4, "HLAfloat32BE": 4, "HLAfloat64LE": 8, "HLAfloat64BE": 8}
+NUMBER_FORMS = {"HLAinteger16": "h", "HLAinteger32": "i", "HLAfloat32": "f", "HLAfloat64": "d"}
+
+
+class Model:
+    """The object model: classes as they stand in the file, outer before inner, and how values of their types travel."""
+
+    def __init__(self, path):
+        root = ElementTree.parse(path).getroot()
+        for element in root.iter():
+            element.tag = element.tag.split("}")[-1]
+        self.types = {}
+        for kind in root.iter("dataTypes"):
+            for group in kind:
+                for declared in group:
+                    self.types[declared.findtext("name")] = declared
+        self.notes = {note.findtext("label"): note.findtext("semantics") for note in root.iter("note")}
+        self.objects, self.interactions = [], []
+        for outer in root.iter("objects"):
+            self.add(outer, "objectClass", "attribute", self.objects, [])
+        for outer in root.iter("interactions"):
+            self.add(outer, "interactionClass", "parameter", self.interactions, [])
+
+    def add(self, outer, tag, member, into, inherited):
+        for element in outer.findall(tag):
+            members = inherited + [(each.findtext("name"), each.findtext("dataType")) for each in element.findall(member)]
+            into.append((element.findtext("name"), members))
+            self.add(element, tag, member, into, members)
+
+    def size(self, name):
+        """Bytes of a value; None if that varies."""
+        if name in BASIC_SIZES:
+            return BASIC_SIZES[name]
+        declared = self.types.get(name)
+        if declared is None:
+            return None
+        if declared.tag == "basicData":
+            return int(declared.findtext("size")) // 8
+        if declared.findtext("representation"):
+            return self.size(declared.findtext("representation"))
+        if declared.tag == "arrayData":
+            count, element = declared.findtext("cardinality"), self.size(declared.findtext("dataType"))
+            return int(count) * element if count and count.isdigit() and element is not None else None
+        if declared.tag == "fixedRecordData":
+            sizes = [self.size(field.findtext("dataType")) for field in declared.findall("field")]
+            return None if None in sizes else sum(sizes)
+        return None
+
+    def fields(self, name):
+        """Records laid flat: (struct format or None, size, grid) of each field; grid is (step, first k, last k) or None."""
+        declared = self.types.get(name)
+        if declared is not None and declared.tag == "fixedRecordData":
+            return [part for field in declared.findall("field") for part in self.fields(field.findtext("dataType"))]
+        form = declared.findtext("representation") if declared is not None and declared.findtext("representation") else name
+        number, order = form[:-2], form[-2:]
+        code = {"LE": "<", "BE": ">"}.get(order, "<") + NUMBER_FORMS[number] if number in NUMBER_FORMS else None
+        return [(code, self.size(name), self.grid(declared) if declared is not None and declared.tag == "simpleData" else None)]
+
+    def grid(self, declared):
+        words = (self.notes.get(declared.get("notes")) or "").split()
+        resolution = declared.findtext("resolution")
+        if len(words) != 3 or words[0] != "range" or resolution is None:
+            return None
+        step = 2.0 ** math.floor(math.log2(float(resolution)))  # at most twice the error, which is half the resolution
+        return step, math.floor(float(words[1]) / step), math.ceil(float(words[2]) / step)
+
+
+class Bits:
+    """Least significant first."""
+
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def number(self, count):
+        value = 0
+        for i in range(count):
+            value |= (self.data[self.at // 8] >> self.at % 8 & 1) << i
+            self.at += 1
+        return value
+
+    def whole_bytes(self):
+        while self.at % 8:
+            assert self.number(1) == 0, "what fills the last byte up is zeros"
+        return self.at // 8
+
+
+class Reader:
+    def __init__(self, data, model):
+        self.data, self.at, self.model, self.stamp = data, 0, model, None
+
+    def is_at_end(self):
+        return self.at == len(self.data)
+
+    def take(self, count):
+        part = self.data[self.at:self.at + count]
+        assert len(part) == count, "a message is cut short"
+        self.at += count
+        return part
+
+    def u8(self):
+        return self.take(1)[0]
+
+    def u16(self):
+        return struct.unpack("<H", self.take(2))[0]
+
+    def u32(self):
+        return struct.unpack("<I", self.take(4))[0]
+
+    def u64(self):
+        return struct.unpack("<Q", self.take(8))[0]
+
+    def f64(self):
+        return "%016x" % self.u64()
+
+    def varint(self):
+        value = shift = 0
+        while True:
+            byte = self.u8()
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
+
+    def text(self):
+        return self.take(self.u8()).decode("utf-8") or "-"
+
+    def short_bytes(self):
+        return self.take(self.u16()).hex() or "-"
+
+    def handles(self):
+        return ",".join(str(self.u32()) for _ in range(self.u16())) or "-"
+
+    def one_or_none(self):
+        value = self.u32()
+        return "-" if value == ALL_ONES else str(value)
+
+    def object_class(self, number):
+        return self.model.objects[number][0]
+
+    def interaction_class(self):
+        return self.model.interactions[self.u16()][0]
+
+    def attributes(self, number, bits):
+        members = self.model.objects[number][1]
+        assert bits >> len(members) == 0, "an attribute that the class has not"
+        return "+".join(members[k][0] for k in range(len(members)) if bits >> k & 1) or "-"
+
+    def read_stamp(self):
+        sizes = self.u8()
+        time_size, tag_size = sizes & 15, sizes >> 4
+        assert time_size <= 8 and tag_size <= 8
+        time = bytes(8 - time_size) + self.take(time_size)
+        tag = self.take(tag_size) + bytes(8 - tag_size)
+        return "%016x %d" % (struct.unpack("<Q", time)[0], struct.unpack("<Q", tag)[0])
+
+    def value(self, name):
+        """As it lies in memory, decoded if it travels in the quantised form."""
+        size = self.model.size(name)
+        if size is None:
+            length = self.take(4)
+            return length + self.take(struct.unpack("<I", length)[0])
+        fields = self.model.fields(name)
+        if all(grid is None for _, _, grid in fields):
+            return self.take(size)
+        bits = Bits(self.data[self.at:])
+        is_full, value = bits.number(1), b""
+        for code, field_size, grid in fields:
+            if is_full or grid is None:
+                value += bytes(bits.number(8) for _ in range(field_size))
+                continue
+            step, first, last = grid
+            k = bits.number((last - first).bit_length())
+            assert k <= last - first, "beyond the range"
+            number = (first + k) * step
+            value += struct.pack(code, number if code[1] in "fd" else int(number))
+        self.take(bits.whole_bytes())
+        return value
+
+    def updates(self, verb):
+        assert self.stamp is not None, "a block of updates before the first stamp of its frame"
+        number, bits = self.varint(), self.varint()
+        types = [data_type for k, (_, data_type) in enumerate(self.model.objects[number][1]) if bits >> k & 1]
+        lines, handle = [], 0
+        while True:
+            step = self.varint()
+            if step == 0:
+                return lines
+            step -= 1
+            handle += -(step + 1) // 2 if step & 1 else step // 2
+            values = b"".join(self.value(each) for each in types)
+            lines.append("%s %d %s %s %s %s" % (verb, handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
+
+    def class_and_attributes(self):
+        number, bits = self.u16(), self.u32()
+        return self.object_class(number) + " " + self.attributes(number, bits)
+
+    def object_message(self):
+        return "%d %s %s" % (self.varint(), self.object_class(self.varint()), self.text())
+
+    def interaction(self, verb):
+        return ["%s %s %s %s %s" % (verb, self.interaction_class(), self.one_or_none(), self.read_stamp(), self.short_bytes())]
+
+    def set_stamp(self):
+        self.stamp = self.read_stamp()
+        return []
+
+    def regions(self):
+        return ["bounds %d %s %s %s %s" % (self.u32(), self.f64(), self.f64(), self.f64(), self.f64()) for _ in range(self.u16())]
+
+    def join(self):
+        assert self.u32() == 0x4B4E4952
+        return ["join version %d model %016x %s %s %s" % (self.u16(), self.u64(), self.text(), self.text(), self.text())]
+
+    def execution(self):
+        if self.u8() == 1:
+            return ["execution list ends"]
+        return ["execution %s %s %d" % (self.text(), self.text(), self.u32())]
+
+
+UP = {
+    1: Reader.join,
+    2: lambda r: ["resign"],
+    3: lambda r: [],
+    4: lambda r: ["register_synchronization_point %s %s %s" % (r.text(), r.short_bytes(), r.handles())],
+    5: lambda r: ["synchronization_point_achieved %s %d" % (r.text(), r.u8())],
+    6: lambda r: ["watch_federates"],
+    7: lambda r: ["publish " + r.class_and_attributes()],
+    8: lambda r: ["subscribe %s %s" % (r.class_and_attributes(), r.one_or_none())],
+    9: lambda r: ["publish_interaction %s %d" % (r.interaction_class(), r.u8())],
+    10: lambda r: ["subscribe_interaction %s %d" % (r.interaction_class(), r.u8())],
+    11: lambda r: ["register " + r.object_message()],
+    12: lambda r: ["delete %d" % r.varint()],
+    13: lambda r: r.updates("update"),
+    14: lambda r: r.interaction("send"),
+    15: lambda r: ["create_region %d" % r.u32()],
+    16: Reader.regions,
+    17: lambda r: ["associate %d %s" % (r.u32(), r.one_or_none())],
+    18: lambda r: ["delete_region %d" % r.u32()],
+    19: Reader.set_stamp,
+    20: lambda r: ["create_execution %s %016x" % (r.text(), r.u64())],
+    21: lambda r: ["destroy_execution " + r.text()],
+    22: lambda r: ["list_executions"],
+}
+DOWN = {
+    3: lambda r: [],
+    13: lambda r: r.updates("reflect"),
+    14: lambda r: r.interaction("receive"),
+    19: Reader.set_stamp,
+    64: lambda r: ["joined %d %d" % (r.u32(), r.u32())],
+    65: lambda r: ["refused %d %s" % (r.u8(), r.text())],
+    66: lambda r: ["announced %s %s" % (r.text(), r.short_bytes())],
+    67: lambda r: ["synchronized %s %s" % (r.text(), r.handles())],
+    68: lambda r: ["federate_joined %d %s %s" % (r.u32(), r.text(), r.text())],
+    69: lambda r: ["federate_resigned %d %d %s %s" % (r.u32(), r.u8(), r.text(), r.text())],
+    70: lambda r: ["discover " + r.object_message()],
+    71: lambda r: ["remove %d" % r.varint()],
+    72: lambda r: ["in_scope %d" % r.varint()],
+    73: lambda r: ["out_of_scope %d" % r.varint()],
+    74: lambda r: ["registered %s %d" % (r.text(), r.u8())],
+    75: lambda r: ["execution_created %s %d" % (r.text(), r.u8())],
+    76: lambda r: ["execution_destroyed %s %d" % (r.text(), r.u8())],
+    77: Reader.execution,
+}
+
+
+def streams_of(session):
+    streams, at = {}, 0
+    while at < len(session):
+        connection, length = struct.unpack_from("<II", session, at + 1)
+        streams.setdefault((connection, chr(session[at])), bytearray()).extend(session[at + 9:at + 9 + length])
+        at += 9 + length
+    return streams
+
+
+def main(model_path, session_path):
+    model = Model(model_path)
+    with open(session_path, "rb") as file:
+        streams = streams_of(file.read())
+    for (connection, direction), stream in sorted(streams.items()):
+        at = 0
+        while at < len(stream):
+            (length,) = struct.unpack_from("<I", stream, at)
+            assert length > 0 and at + 4 + length <= len(stream), "a frame is empty or cut short"
+            reader = Reader(bytes(stream[at + 4:at + 4 + length]), model)
+            at += 4 + length
+            while not reader.is_at_end():
+                kind = reader.u8()
+                table = UP if direction == "u" else DOWN
+                assert kind in table, "kind %d of direction %s is not in docs/wire.md" % (kind, direction)
+                for line in table[kind](reader):
+                    print("%d%s %s" % (connection, direction, line))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
