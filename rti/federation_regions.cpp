@@ -84,7 +84,8 @@ Outcome FederationExecution::Parts::modify_ranges(std::uint32_t slot, Reader& re
   ModifyRangesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
-  if (!interest_.has_region(slot, region) || interest_.dimensions(slot, region).count() != message.count) return Violation::unknown_name;
+  // A model without X and Y has regions over the plane all the same, whose ranges have no dimensions to go by.
+  if (message.count == 0 || !interest_.has_region(slot, region) || interest_.dimensions(slot, region).count() != message.count) return Violation::unknown_name;
   ranges_.clear();
   const Outcome outcome = for_each_record<Range>(message.ranges, message.count, [&](const Range& range) -> Outcome {
     ranges_.push_back(range);
@@ -146,11 +147,15 @@ void FederationExecution::Parts::request_update(std::uint32_t slot, ObjectClassH
     const Object& asked = objects_[object];
     if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class)) continue;
     const AttributeSet due = interest_.overlapping(slot, region, object, attributes);
-    for (std::uint32_t owner = 0; owner < federates_.size(); ++owner) {
-      if (owner == slot || !federates_[owner].is_joined || (asked.owner != no_federate && asked.owner != owner)) continue;
-      const AttributeSet owned = due & ownership_.owned_by(owner, object);
+    const auto ask = [&](std::uint32_t owner) {
+      const AttributeSet owned = owner == slot ? AttributeSet() : due & ownership_.owned_by(owner, object);
       if (!owned.is_empty()) say(federates_[owner].tail, ProvideUpdateMessage{asked.handle.value, owned.bits});
-    }
+    };
+    if (due.is_empty()) continue;
+    if (asked.owner != no_federate) ask(asked.owner);
+    else
+      for (std::uint32_t owner = 0; owner < federates_.size(); ++owner)
+        if (federates_[owner].is_joined) ask(owner);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "rti/distribution/interest.h"
+#include "rti/wire/region_messages.h"
 #include "tests/rti/airspace.h"
 
 namespace rink::rti::testing {
@@ -325,6 +326,53 @@ TEST(Regions, DataDistributionIsReplacedByTheUsersOwn) {
     EXPECT_EQ(flights.pilots()[1].heard.interactions.size(), is_replaced ? 0u : 1u);
   }
   EXPECT_EQ(made, 1);
+}
+
+TEST(Regions, WhoNamesDimensionsOrRegionsThatAreNoneIsDroppedAndNobodyElse) {
+  const std::array<std::byte, ModifyRegionsMessage::record_size> zeros{};
+  const Bytes range = Bytes(zeros).first(ModifyRangesMessage::range_size);
+  const std::array<std::uint32_t, 2> pair{1u, 77u};
+  const auto bytes = std::as_bytes(std::span(pair));
+  const auto is_dropped = [](auto... messages) {
+    FederationExecution execution(harbour(), {});
+    struct Drops final : Outlet {
+      std::vector<ConnectionId> dropped;
+      void send(ConnectionId, std::span<const Bytes>) override {}
+      void drop(ConnectionId id, std::string_view) override { dropped.push_back(id); }
+    } outlet;
+    Recorder heard;
+    Ambassador honest(harbour(), heard), other(harbour(), heard);
+    execution.connect(0);
+    execution.connect(1);
+    honest.join("rink", "honest", "test");
+    other.join("rink", "other", "test");
+    execution.receive(0, honest.outgoing());
+    execution.receive(1, other.outgoing());
+    FrameWriter frame(frame_max_to_rti);
+    const auto add = [&](auto message) {
+      write(frame.begin_message(measure(message)), message);
+      frame.appended();
+    };
+    (add(messages), ...);
+    execution.receive(1, frame.bytes());
+    execution.match();
+    execution.flush(outlet);
+    EXPECT_EQ(std::ranges::count(outlet.dropped, ConnectionId{0}), 0);
+    return std::ranges::count(outlet.dropped, ConnectionId{1}) == 1;
+  };
+  EXPECT_FALSE(is_dropped(CreateRegionOverMessage{0, 3}, ModifyRangesMessage{0, 2, Bytes(zeros).first(2 * range.size())}));
+  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 4})) << "the harbour has two dimensions";
+  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{1, 1})) << "a gap";
+  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 1}, CreateRegionOverMessage{0, 1})) << "in use";
+  EXPECT_TRUE(is_dropped(CreateRegionMessage{0}, ModifyRangesMessage{0, 1, range})) << "one range of two";
+  EXPECT_TRUE(is_dropped(CreateRegionMessage{0}, ModifyRangesMessage{0, 0, {}}));
+  EXPECT_TRUE(is_dropped(ModifyRangesMessage{5, 1, range}));
+  EXPECT_TRUE(is_dropped(CreateRegionOverMessage{0, 1}, ModifyRegionsMessage{1, zeros})) << "not over the plane";
+  EXPECT_TRUE(is_dropped(RegionalClassMessage{static_cast<std::uint16_t>(vessel.value), 1, 1, bytes})) << "no such region";
+  EXPECT_TRUE(is_dropped(RegionalClassMessage{999, 1, 0, {}}));
+  EXPECT_TRUE(is_dropped(RegionalInteractionMessage{static_cast<std::uint16_t>(hail.value), 1, 1, bytes.first(4)}));
+  EXPECT_TRUE(is_dropped(AssociateRegionsMessage{12345, 1, 1, bytes}));
+  EXPECT_TRUE(is_dropped(InteractionWithinMessage{static_cast<std::uint16_t>(hail.value), {}, 1, bytes.first(4), {}}));
 }
 
 }  // namespace
