@@ -72,12 +72,9 @@ inline std::vector<std::byte> bytes_of(std::string_view text) {
 inline std::string text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 template <class... Numbers>
 std::vector<std::byte> values_of(const Numbers&... numbers) {
-  std::vector<std::byte> bytes;
-  const auto add = [&bytes](const auto& number) {
-    const auto* first = reinterpret_cast<const std::byte*>(&number);
-    bytes.insert(bytes.end(), first, first + sizeof number);
-  };
-  (add(numbers), ...);
+  std::vector<std::byte> bytes((sizeof(Numbers) + ... + 0));
+  std::size_t at = 0;
+  ((std::memcpy(bytes.data() + at, &numbers, sizeof numbers), at += sizeof numbers), ...);
   return bytes;
 }
 /// A value of varying size as it travels.
