@@ -1,5 +1,5 @@
 // The services of the federate's side: each becomes a message at the end of `outgoing`.
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 
 #include <cassert>
 #include <cstring>

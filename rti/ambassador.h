@@ -1,7 +1,6 @@
 // A federate's side of the RTI: services in, bytes out; bytes in, callbacks out.
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "im/filter.h"
+#include "rti/ambassador_counters.h"
 #include "rti/baselines/keyframe_memory.h"
 #include "rti/callbacks/callback_queue.h"
 #include "rti/federate_ambassador.h"
@@ -23,32 +23,13 @@
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
+#include "rti/patience.h"
 #include "rti/time/federate_clock.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
 
 struct DeltaHeader;
-
-/// How long a silent peer is waited for.
-struct Patience {
-  double heartbeat_s = 1.0;  ///< a side that has nothing else to say says so this often
-  double lost_after_s = 5.0; ///< a side that has said nothing for so long is lost
-};
-
-struct AmbassadorCounters {
-  std::uint64_t bytes_received = 0, bytes_sent = 0;  ///< payload, frame headers included
-  std::uint64_t frames_received = 0, frames_sent = 0;
-  std::uint64_t updates_sent = 0, updates_reflected = 0;
-  std::uint64_t interactions_sent = 0, interactions_received = 0;
-  std::uint64_t objects_discovered = 0, objects_removed = 0;
-  std::uint64_t scope_changes = 0;
-  std::uint64_t keyframes_acknowledged = 0, differences_refused = 0;  ///< of periodic state (docs/wire.md, "Baselines")
-  std::uint64_t timed_sent = 0, timed_received = 0, time_advance_grants = 0;  ///< messages sent in time-stamp order; time management
-  /// Of datagrams: that were applied; that were ignored, for they had come before or made no sense; updates in them that were older than what is known, or of
-  /// objects out of scope.
-  std::uint64_t datagrams_received = 0, datagrams_ignored = 0, updates_outdated = 0;
-};
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
 /// Services assert on the programmer's mistakes (an object of somebody else, an undeclared class).
@@ -404,28 +385,5 @@ class Ambassador {
   };
   std::vector<Deletion> deletions_;       ///< in time-stamp order, as long as they can be taken back
 };
-
-template <class Message>
-void Ambassador::say(Message message) {
-  if (phase_ != Phase::joining && phase_ != Phase::joined) refuse_stranger();
-  append(message);
-}
-
-template <class Message>
-void Ambassador::append(Message& message) {
-  write(outgoing_.begin_message(measure(message)), message);
-  outgoing_.appended();
-  open_.is_open = false;
-}
-
-template <class Header>
-void Ambassador::say_of(Header header, ObjectHandle object) {
-  assert(phase_ == Phase::joined);
-  const std::size_t size = measure(header) + object_record_max;
-  if (!outgoing_.has_room(size)) object_block_writer_.close();
-  object_block_writer_.append(outgoing_.begin_message(size), header, object.value);
-  outgoing_.appended();
-  open_.is_open = false;
-}
 
 }  // namespace rink::rti

@@ -1,5 +1,5 @@
 // Periodic state as a federate hears it: differences to keyframes that it keeps and has acknowledged.
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/baselines/delta_bits.h"
 #include "rti/wire/baseline_messages.h"
 

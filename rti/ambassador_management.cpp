@@ -1,7 +1,7 @@
 // A federate's side of federation management: what it asks a host, join and resign, synchronisation points.
 #include <algorithm>
 
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
 

@@ -1,5 +1,5 @@
 // Ownership management at the federate's side: its own part of each object's ownership, judged before anything is sent.
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 

@@ -1,7 +1,7 @@
 // The services of data distribution management at the federate's side (IEEE 1516.1-2010, clause 9).
 #include <algorithm>
 
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/wire/region_messages.h"
 
 namespace rink::rti {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/hla_error.h"
 #include "rti/wire/time_messages.h"
 #include "rti/wire/update_block.h"
