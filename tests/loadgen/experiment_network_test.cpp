@@ -137,7 +137,7 @@ TEST_F(BadNetworkRun, ACutOfASecondHealsAndOneOfTenLosesTheClients) {
   EXPECT_EQ(record_.why_invalid, "");
   EXPECT_GT(counted["cut"].get<int>(), 0);
   run("duration_s = 9\n[[network.partition]]\nfrom_s = 1\nuntil_s = 11\nlast = 0");
-  EXPECT_THAT(record_.why_invalid, HasSubstr("1 of 6 bots were lost"));
+  EXPECT_THAT(record_.why_invalid, HasSubstr("1 clients lost by the server"));
 }
 
 }  // namespace
