@@ -114,7 +114,7 @@ void raw_udp_tick_send(benchmark::State& state) {
   });
   const File sender(::socket(AF_INET, SOCK_DGRAM, 0));
   prepare_datagram_socket(sender.number(), false);
-  std::vector<std::byte> message(3 * 17 + 35 + seen_count * 12);
+  std::vector<std::byte> message(2 * 1200 + 185);  // what the RTI sends, with the heads of its datagrams
   iovec vector{message.data(), message.size()};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(std::uint16_t))> control{};
   auto* segments = reinterpret_cast<cmsghdr*>(control.data());
