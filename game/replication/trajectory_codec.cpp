@@ -184,6 +184,22 @@ bool decode_law(rti::Bytes coded, bool has_acceleration, const bool (&is_own)[2]
   return reader.is_at_end();
 }
 
+/// As its first bytes tell, whether or not the rest is there.
+std::optional<std::size_t> told_size(rti::Bytes coded) {
+  if (coded.empty()) return std::nullopt;
+  const unsigned first = static_cast<unsigned>(coded[0]), form = (first & 7u) == driven ? first & 7u : first & 3u;
+  if (form == resting) return 5;
+  if (form == near) return 9;
+  if (form == full) return full_size;
+  if (form == driven) {
+    if (coded.size() < driven_size) return std::nullopt;
+    return driven_size + ((static_cast<unsigned>(coded[push_short_at / 8]) >> push_short_at % 8 & 1u) != 0 ? 2u : 4u);
+  }
+  if (coded.size() < wide_size) return std::nullopt;
+  const auto flags = static_cast<unsigned>(coded[wide_flags_at / 8]) >> wide_flags_at % 8;
+  return wide_size + ((flags & 1u) != 0 ? 8u : 0u) + ((flags & 2u) != 0 ? 0u : 8u) + ((flags & 4u) != 0 ? 0u : 8u);
+}
+
 }  // namespace
 
 void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const {
@@ -207,18 +223,8 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
 }
 
 std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
-  if (coded.empty()) return std::nullopt;
-  const unsigned first = static_cast<unsigned>(coded[0]), form = (first & 7u) == driven ? first & 7u : first & 3u;
-  if (form == resting) return 5;
-  if (form == near) return 9;
-  if (form == full) return full_size;
-  if (form == driven) {
-    if (coded.size() < driven_size) return std::nullopt;
-    return driven_size + ((static_cast<unsigned>(coded[push_short_at / 8]) >> push_short_at % 8 & 1u) != 0 ? 2u : 4u);
-  }
-  if (coded.size() < wide_size) return std::nullopt;
-  const auto flags = static_cast<unsigned>(coded[wide_flags_at / 8]) >> wide_flags_at % 8;
-  return wide_size + ((flags & 1u) != 0 ? 8u : 0u) + ((flags & 2u) != 0 ? 0u : 8u) + ((flags & 4u) != 0 ? 0u : 8u);
+  const std::optional<std::size_t> told = told_size(coded);
+  return told && *told <= coded.size() ? told : std::nullopt;
 }
 
 bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const {
