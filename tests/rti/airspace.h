@@ -34,6 +34,7 @@ inline const DimensionHandle x = *airspace().dimension("X"), y = *airspace().dim
 struct Pilot {
   Recorder heard;
   Ambassador ambassador{airspace(), heard};
+  Pilot() { heard.model = &airspace(); }
 };
 
 /// One federation execution and its pilots, who publish all. Services in, callbacks out.

@@ -96,6 +96,7 @@ class Recorder : public FederateAmbassador {
     int updates = 0;
     Stamp stamp;
   };
+  const Fom* model = &harbour();  ///< of its ambassador
   std::vector<std::string> log;
   std::map<std::uint32_t, Known> objects;
   std::map<std::uint32_t, int> discoveries;
@@ -143,7 +144,7 @@ class Recorder : public FederateAmbassador {
     known.stamp = stamp;
     for (std::uint32_t i = 0; i < attribute_max; ++i) {
       if (!set.contains({i})) continue;
-      const Bytes value = harbour().value(known.object_class, set, {i}, values);
+      const Bytes value = model->value(known.object_class, set, {i}, values);
       known.values[i] = {value.begin(), value.end()};
     }
   }
@@ -198,7 +199,7 @@ struct Station {
   Recorder heard;
   Ambassador ambassador;
   std::unique_ptr<FederateLink> link;
-  explicit Station(const Fom& fom) : ambassador(fom, heard) {}
+  explicit Station(const Fom& fom) : ambassador(fom, heard) { heard.model = &fom; }
 };
 
 /// One federation execution and its federates. `settle` carries everything to its end.
