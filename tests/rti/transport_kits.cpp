@@ -22,13 +22,10 @@ std::string unique_name() {
   return "rink-kit-" + std::to_string(getpid()) + "-" + std::to_string(count++);
 }
 
-class InProcessKit final : public TransportKit {
+/// Endpoints of one process that find each other by name, and never wait.
+template <class Network, class Endpoint>
+class LocalKit : public TransportKit {
  public:
-  InProcessKit() {
-    can_wait = false;
-    connections = 5000;
-    restart_server();
-  }
   Transport& server() override { return *server_; }
   Transport& client() override { return client_; }
   ConnectionId connect() override { return client_.connect("here"); }
@@ -39,36 +36,34 @@ class InProcessKit final : public TransportKit {
     server_->listen("here");
   }
 
+ protected:
+  template <class Argument>
+  explicit LocalKit(Argument&& argument) : network_(argument) {
+    can_wait = false;
+    connections = 5000;
+    LocalKit::restart_server();
+  }
+  Network network_;
+
  private:
-  InProcessNetwork network_{1u << 20};
-  InProcessEndpoint client_{network_};
-  std::optional<InProcessEndpoint> server_;
+  Endpoint client_{network_};
+  std::optional<Endpoint> server_;
 };
 
-class VirtualKit final : public TransportKit {
+class InProcessKit final : public LocalKit<InProcessNetwork, InProcessEndpoint> {
  public:
-  VirtualKit() {
-    can_wait = false;
-    connections = 5000;
-    restart_server();
-  }
-  Transport& server() override { return *server_; }
-  Transport& client() override { return client_; }
-  ConnectionId connect() override { return client_.connect("here"); }
-  ConnectionId connect_to_nobody() override { return client_.connect("nowhere"); }
-  void restart_server() override {
-    server_.reset();
-    server_.emplace(network_);
-    server_->listen("here");
-  }
+  InProcessKit() : LocalKit(std::size_t{1} << 20) {}
+};
+
+struct Delay {
+  ConstantDelay model{1000};
+};
+/// The delay is a base, for it must be there before the network and after it.
+class VirtualKit final : private Delay, public LocalKit<VirtualNetwork, VirtualEndpoint> {
+ public:
+  VirtualKit() : LocalKit(model) {}
   void pass_time() override { network_.advance_to(network_.next_arrival_ns().value_or(network_.now_ns() + 1000)); }
   bool limit_queue(std::size_t) override { return false; }  // what is under way is the network's, not a queue
-
- private:
-  ConstantDelay model_{1000};
-  VirtualNetwork network_{model_};
-  VirtualEndpoint client_{network_};
-  std::optional<VirtualEndpoint> server_;
 };
 
 /// TCP, and UDP beside it, which is set up and limited in the same way.
