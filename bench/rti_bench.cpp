@@ -1,4 +1,4 @@
-// The RTI beside raw Asio: round trips, and one tick sent to many clients; every figure counts what arrived.
+// The RTI beside raw Asio: one tick sent to many clients, and joins; every figure counts what arrived.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -27,133 +27,19 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType></attribute>
-</objectClass></objectClass></objects>
-<interactions><interactionClass><name>Ping</name></interactionClass><interactionClass><name>Pong</name></interactionClass></interactions></objectModel>)";
+</objectClass></objectClass></objects></objectModel>)";
 
 const Fom& model() {
   static const Fom fom = Fom::parse(model_xml, "bench");
   return fom;
 }
 
-/// Percentile of samples, which are reordered.
-double percentile(std::vector<double>& samples, double fraction) {
-  const auto at = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(samples.size() - 1));
-  std::nth_element(samples.begin(), samples.begin() + at, samples.end());
-  return samples[static_cast<std::size_t>(at)];
-}
-
-/// Times single round trips as `round` makes them; the median is the figure.
-template <class Round>
-void measure_rounds(benchmark::State& state, Round round) {
-  std::vector<double> microseconds;
-  for (auto _ : state) {
-    const auto start = Clock::now();
-    if (!round()) return state.SkipWithError("the other end is gone");
-    microseconds.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-  }
-  state.counters["p50_us"] = percentile(microseconds, 0.5);
-  state.counters["p99_us"] = percentile(microseconds, 0.99);
-}
-
-/// 24 bytes there and back by blocking Asio sockets.
-void raw_round_trip(benchmark::State& state) {
-  asio::io_context context;
-  asio::ip::tcp::acceptor acceptor(context, {asio::ip::address_v4::loopback(), 0});
-  std::thread echo([&] {
-    asio::io_context own;
-    asio::ip::tcp::socket socket(own);
-    asio::error_code error;
-    socket.connect(acceptor.local_endpoint(), error);
-    socket.set_option(asio::ip::tcp::no_delay(true));
-    std::array<std::byte, 24> buffer;
-    while (!error) {
-      asio::read(socket, asio::buffer(buffer), error);
-      if (!error) asio::write(socket, asio::buffer(buffer), error);
-    }
-  });
-  auto socket = acceptor.accept();
-  socket.set_option(asio::ip::tcp::no_delay(true));
-  std::array<std::byte, 24> buffer{};
-  measure_rounds(state, [&] {
-    asio::error_code error;
-    asio::write(socket, asio::buffer(buffer), error);
-    asio::read(socket, asio::buffer(buffer), error);
-    return !error;
-  });
-  socket.close();
-  echo.join();
-}
-
 /// One federate with its own connection, or one beside others on a shared transport.
 struct Federate : FederateAmbassador {
   Ambassador ambassador{model(), *this};
-  std::uint64_t interactions = 0, updates = 0;
-  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override { ++interactions; }
+  std::uint64_t updates = 0;
   void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override { ++updates; }
 };
-
-/// 24 bytes by interaction from a client over TCP to the federate beside the RTI, and back: two passes through the RTI.
-/// `spin`: of both ends' polls.
-void rink_round_trip(benchmark::State& state, std::chrono::nanoseconds spin) {
-  const InteractionClassHandle ping = *model().interaction_class("Ping"), pong = *model().interaction_class("Pong");
-  std::atomic<bool> is_over{false};
-  std::atomic<std::uint16_t> port{0};
-  std::thread server([&] {
-    FederationExecution execution(model(), {});
-    FederationHost host(execution);
-    InProcessNetwork network;
-    InProcessEndpoint near(network), own(network);
-    TcpTransport tcp(TcpSettings{.spin = spin});
-    near.listen("rti");
-    const std::uint16_t listening = tcp.listen("127.0.0.1", 0);
-    host.add(near);
-    host.add(tcp);
-    Federate federate;
-    FederateLink link(federate.ambassador, own, own.connect("rti"));
-    FederateLinks links;
-    links.add(link);
-    federate.ambassador.join("rink", "server", "server");
-    federate.ambassador.publish_interaction_class(pong);
-    federate.ambassador.subscribe_interaction_class(ping);
-    const std::array<std::byte, 24> answer{};
-    std::uint64_t answered = 0;
-    for (bool is_told = false; !is_over;) {
-      if (!is_told && federate.ambassador.is_joined()) port = listening, is_told = true;
-      links.flush(0.0);
-      host.poll(is_told ? 100ms : 0ms);  // a timer of a millisecond costs a virtual machine some microseconds each time
-      host.flush();
-      own.poll(0ms, links);
-      for (; answered < federate.interactions; ++answered) federate.ambassador.send_interaction(pong, answer, {});
-      if (federate.ambassador.outgoing().empty()) continue;
-      links.flush(0.0);
-      host.poll(near);
-      host.flush();
-    }
-  });
-  while (port == 0) std::this_thread::yield();
-  TcpTransport tcp(TcpSettings{.spin = spin});
-  Federate client;
-  FederateLink link(client.ambassador, tcp, tcp.connect("127.0.0.1", port));
-  FederateLinks links;
-  links.add(link);
-  client.ambassador.join("rink", "client", "client");
-  client.ambassador.publish_interaction_class(ping);
-  client.ambassador.subscribe_interaction_class(pong);
-  while (!client.ambassador.is_joined() && !link.is_finished()) {
-    links.flush(0.0);
-    tcp.poll(1ms, links);
-  }
-  const std::array<std::byte, 24> question{};
-  measure_rounds(state, [&] {
-    const std::uint64_t before = client.interactions;
-    client.ambassador.send_interaction(ping, question, {});
-    links.flush(0.0);
-    while (client.interactions == before && !link.is_finished()) tcp.poll(100ms, links);
-    return !link.is_finished();
-  });
-  is_over = true;
-  server.join();
-}
 
 double thread_seconds() {
   timespec now{};
@@ -303,9 +189,6 @@ void rink_join(benchmark::State& state) {
   }
 }
 
-BENCHMARK(raw_round_trip)->Name("rti/round_trip/raw_asio")->UseRealTime()->MinTime(0.5);
-BENCHMARK_CAPTURE(rink_round_trip, blocking, 0us)->Name("rti/round_trip/rink")->UseRealTime()->MinTime(0.5);
-BENCHMARK_CAPTURE(rink_round_trip, spinning, 50us)->Name("rti/round_trip/rink_spinning")->UseRealTime()->MinTime(0.5);
 BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_tcp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_tick_send)->Name("rti/tick_send/rink")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_join)->Name("rti/join")->ArgName("federates")->Arg(1000)->UseRealTime()->Iterations(1)->Unit(benchmark::kMillisecond);

@@ -1,4 +1,4 @@
-// One tick of best-effort updates to many clients by UDP, beside a raw batched sender; every figure counts what arrived. And round trips through shared memory.
+// One tick of best-effort updates to many clients by UDP, beside a raw batched sender; every figure counts what arrived.
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>
 #include <netinet/udp.h>
@@ -21,7 +21,6 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
-#include "rti/transport/shared_memory.h"
 #include "rti/transport/udp.h"
 
 namespace {
@@ -32,8 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* model_xml = R"(<objectModel><objects><objectClass><name>Root</name><objectClass><name>Entity</name>
 <attribute><name>position</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-</objectClass></objectClass></objects>
-<interactions><interactionClass><name>Ping</name></interactionClass><interactionClass><name>Pong</name></interactionClass></interactions></objectModel>)";
+</objectClass></objectClass></objects></objectModel>)";
 
 const Fom& model() {
   static const Fom fom = Fom::parse(model_xml, "bench");
@@ -51,8 +49,7 @@ double wall_seconds() { return std::chrono::duration<double>(Clock::now().time_s
 
 struct Federate : FederateAmbassador {
   Ambassador ambassador{model(), *this};
-  std::uint64_t interactions = 0, updates = 0;
-  void receive_interaction(InteractionClassHandle, Bytes, FederateHandle, const Stamp&) override { ++interactions; }
+  std::uint64_t updates = 0;
   void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes, const Stamp&) override { ++updates; }
 };
 
@@ -224,72 +221,7 @@ void rink_udp_tick_send(benchmark::State& state) {
   state.counters["repaired"] = static_cast<double>(execution.counters().updates_repaired - before.updates_repaired);
 }
 
-/// 24 bytes by interaction from a client through shared memory to the federate beside the RTI, and back: two passes through the RTI.
-void rink_shm_round_trip(benchmark::State& state) {
-  const InteractionClassHandle ping = *model().interaction_class("Ping"), pong = *model().interaction_class("Pong");
-  std::atomic<bool> is_listening{false};
-  Companion server([&](const std::atomic<bool>& is_over) {
-    FederationExecution execution(model(), {});
-    FederationHost host(execution);
-    InProcessNetwork network;
-    InProcessEndpoint near(network), own(network);
-    SharedMemoryTransport shared;
-    near.listen("rti");
-    shared.listen("bench");
-    host.add(near);
-    host.add(shared);
-    Federate federate;
-    FederateLink link(federate.ambassador, own, own.connect("rti"));
-    FederateLinks links;
-    links.add(link);
-    federate.ambassador.join("rink", "server", "server");
-    federate.ambassador.publish_interaction_class(pong);
-    federate.ambassador.subscribe_interaction_class(ping);
-    const std::array<std::byte, 24> answer{};
-    for (std::uint64_t answered = 0; !is_over;) {
-      is_listening = federate.ambassador.is_joined();
-      links.flush(0.0);
-      host.poll(is_listening ? 1ms : 0ms);
-      host.flush();
-      own.poll(0ms, links);
-      for (; answered < federate.interactions; ++answered) federate.ambassador.send_interaction(pong, answer, {});
-      if (federate.ambassador.outgoing().empty()) continue;
-      links.flush(0.0);
-      host.poll(0ms);
-      host.flush();
-    }
-  });
-  while (!is_listening) std::this_thread::yield();
-  SharedMemoryTransport shared;
-  Federate client;
-  FederateLink link(client.ambassador, shared, shared.connect("bench"));
-  FederateLinks links;
-  links.add(link);
-  client.ambassador.join("rink", "client", "client");
-  client.ambassador.publish_interaction_class(ping);
-  client.ambassador.subscribe_interaction_class(pong);
-  while (!client.ambassador.is_joined() && !link.is_finished()) {
-    links.flush(0.0);
-    shared.poll(1ms, links);
-  }
-  const std::array<std::byte, 24> question{};
-  std::vector<double> microseconds;
-  for (auto _ : state) {
-    const auto start = Clock::now();
-    const std::uint64_t before = client.interactions;
-    client.ambassador.send_interaction(ping, question, {});
-    links.flush(0.0);
-    while (client.interactions == before && !link.is_finished()) shared.poll(100ms, links);
-    if (link.is_finished()) return state.SkipWithError("the other end is gone");
-    microseconds.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-  }
-  std::sort(microseconds.begin(), microseconds.end());
-  state.counters["p50_us"] = microseconds[microseconds.size() / 2];
-  state.counters["p99_us"] = microseconds[microseconds.size() * 99 / 100];
-}
-
 BENCHMARK(raw_udp_tick_send)->Name("rti/tick_send/raw_udp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_udp_tick_send)->Name("rti/tick_send/rink_udp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
-BENCHMARK(rink_shm_round_trip)->Name("rti/round_trip/rink_shm")->UseRealTime()->MinTime(0.5);
 
 }  // namespace
