@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::test {
@@ -20,7 +21,7 @@ class CommandTest : public testing::Test {
 
   /// The exit status of `rink ARGUMENTS`; what it prints is in `printed_`, what it says on standard error in `said_`.
   int run(const std::string& arguments) {
-    const int status = std::system((std::string(RINK_BINARY_DIR) + "/bin/rink-" + arguments + " >" + file("printed") + " 2>" + file("said")).c_str());
+    const int status = std::system((test::binary_folder() + "/bin/rink-" + arguments + " >" + file("printed") + " 2>" + file("said")).c_str());
     printed_ = content("printed");
     said_ = content("said");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

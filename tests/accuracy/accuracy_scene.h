@@ -10,6 +10,7 @@
 
 #include "game/control/game.h"
 #include "game/model/scene_file.h"
+#include "tests/places.h"
 
 namespace rink::accuracy {
 
@@ -19,7 +20,7 @@ using physics::BodyId;
 using physics::Vector2;
 using physics::World;
 
-inline Scene scene_named(const std::string& name) { return game::load_scene(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy/" + name + ".toml"); }
+inline Scene scene_named(const std::string& name) { return game::load_scene(test::source_folder() + "/scenes/accuracy/" + name + ".toml"); }
 
 /// Sanitizers look for other mistakes than drift, and take up to thirty times as long.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

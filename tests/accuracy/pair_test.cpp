@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/accuracy/accuracy_scene.h"
+#include "tests/places.h"
 
 namespace rink::accuracy {
 namespace {
@@ -21,7 +22,7 @@ struct Truth {
 };
 
 std::vector<Truth> read_truth() {
-  std::ifstream file(std::string(RINK_SOURCE_DIR) + "/tests/accuracy/truth.csv");
+  std::ifstream file(test::source_folder() + "/tests/accuracy/truth.csv");
   std::vector<Truth> all;
   std::string line;
   for (std::getline(file, line); std::getline(file, line);) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/accuracy/accuracy_scene.h"
+#include "tests/places.h"
 
 namespace rink::accuracy {
 namespace {
@@ -19,7 +20,7 @@ std::string text_of(const std::filesystem::path& file) {
 
 std::vector<std::filesystem::path> all_scenes() {
   std::vector<std::filesystem::path> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/scenes/accuracy"))
     if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
@@ -28,7 +29,7 @@ std::vector<std::filesystem::path> all_scenes() {
 /// What rink simulate writes about `scene` at `until`.
 std::string summary_of(const std::filesystem::path& scene, const std::string& until) {
   const std::string summary = testing::TempDir() + "/rink-accuracy-" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
-  const std::string command = std::string(RINK_BINARY_DIR) + "/bin/rink-simulate " + scene.string() + " --until " + until + " --summary " + summary + " >" + summary + ".out 2>&1";
+  const std::string command = test::binary_folder() + "/bin/rink-simulate " + scene.string() + " --until " + until + " --summary " + summary + " >" + summary + ".out 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command << ": " << text_of(summary + ".out");
   const std::string text = text_of(summary);
   std::filesystem::remove(summary);
@@ -41,7 +42,7 @@ TEST(EveryAccuracyScene, RunsUnderRinkSimulate) {
 }
 
 TEST(EveryAccuracyScene, IsListedInTheDocuments) {
-  const std::string document = text_of(std::string(RINK_SOURCE_DIR) + "/docs/accuracy-suite.md");
+  const std::string document = text_of(test::source_folder() + "/docs/accuracy-suite.md");
   std::vector<std::string> missing;
   for (const auto& scene : all_scenes())
     if (document.find("`" + scene.stem().string() + "`") == std::string::npos) missing.push_back(scene.stem().string());
@@ -49,7 +50,7 @@ TEST(EveryAccuracyScene, IsListedInTheDocuments) {
 }
 
 TEST(RinkSimulate, CountsTheDigitsOfPi) {
-  EXPECT_THAT(summary_of(std::string(RINK_SOURCE_DIR) + "/scenes/accuracy/pi-chain-4.toml", "15"), testing::HasSubstr("\"collisions\": 31415,"));
+  EXPECT_THAT(summary_of(test::source_folder() + "/scenes/accuracy/pi-chain-4.toml", "15"), testing::HasSubstr("\"collisions\": 31415,"));
 }
 
 }  // namespace

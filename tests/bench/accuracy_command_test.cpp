@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/command.h"
+#include "tests/places.h"
 
 namespace rink::accuracy {
 namespace {
@@ -67,7 +68,7 @@ TEST_F(AccuracyCommand, RefusesWrongNamesWithThoseThatAreRight) {
 }
 
 TEST_F(AccuracyCommand, KeepsWhatWasMeasuredWhenInterrupted) {
-  const std::string shell = "cd " + folder_.path().string() + " && (" + RINK_BINARY_DIR + "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; kill -TERM $pid; wait $pid; echo $? >status)";
+  const std::string shell = "cd " + folder_.path().string() + " && (" + test::binary_folder() + "/bin/rink-accuracy --full --out out >said 2>&1 & pid=$!; sleep 2; kill -TERM $pid; wait $pid; echo $? >status)";
   ASSERT_EQ(std::system(shell.c_str()), 0);
   EXPECT_EQ(content("status"), "130\n");
   EXPECT_THAT(content("out/points.csv"), HasSubstr("\npairs,exact,"));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/fuzz/harness.h"
+#include "tests/places.h"
 
 namespace rink::fuzz {
 namespace {
@@ -21,7 +22,7 @@ std::vector<Harness> all_harnesses() {
 /// In the order of their names, so that random changes are the same everywhere.
 std::vector<std::vector<std::byte>> corpus_of(const std::string& name) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(RINK_SOURCE_DIR) / "tests/fuzz/corpus" / name)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(test::source_folder()) / "tests/fuzz/corpus" / name)) files.push_back(entry.path());
   std::ranges::sort(files);
   std::vector<std::vector<std::byte>> corpus;
   for (const auto& file : files) {

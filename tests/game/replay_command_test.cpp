@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "game/control/key_log.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -29,7 +30,7 @@ class ReplayCommand : public ::testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   /// The exit status of `rink COMMAND`; all that it says is in `said_`.
   int run(const std::string& command) {
-    const int status = std::system((std::string(RINK_BINARY_DIR) + "/bin/rink-" + command + " >" + file("out") + " 2>&1").c_str());
+    const int status = std::system((test::binary_folder() + "/bin/rink-" + command + " >" + file("out") + " 2>&1").c_str());
     said_ = text_of(file("out"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "game/model/scene_file.h"
+#include "tests/places.h"
 
 namespace rink::game {
 
 /// A field of 4 m x 2 m with goals of 0.5 m, everything else as in `more`.
 inline Scene small_scene(const std::string& more) { return parse_scene("[field]\nlength = 4.0\nwidth = 2.0\ngoal_width = 0.5\n" + more, "small.toml"); }
 
-inline Scene preset(const std::string& name) { return load_scene(std::string(RINK_SOURCE_DIR) + "/scenes/" + name + ".toml"); }
+inline Scene preset(const std::string& name) { return load_scene(test::source_folder() + "/scenes/" + name + ".toml"); }
 
 /// A crowd of `bats` bats, ten times as many pucks and a fifth as many posts.
 inline Scene small_crowd(std::uint32_t bats, std::uint64_t seed) { return with_seed(scaled_to_bats(preset("crowd"), bats), seed); }

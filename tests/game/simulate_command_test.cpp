@@ -11,6 +11,7 @@
 #include "game/control/simulate_progress.h"
 #include "rink_scenes.h"
 #include "tests/command.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -140,7 +141,7 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
 }
 
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {
-  const std::string page = test::text_of(std::string(RINK_SOURCE_DIR) + "/docs/scenes.md");
+  const std::string page = test::text_of(test::source_folder() + "/docs/scenes.md");
   const std::size_t start = page.find("```toml\n") + 8;
   const Scene scene = parse_scene(page.substr(start, page.find("```", start) - start), "docs/scenes.md");
   EXPECT_EQ(scene.name, "duel");

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
+
 namespace rink::house {
 
 /// `path` is relative to the project's root, with forward slashes.
@@ -31,7 +33,7 @@ inline SourceFile read_source(const std::filesystem::path& root, const std::file
 
 /// All files below `folders` whose extension is one of `extensions`, in the order of their paths.
 inline std::vector<SourceFile> read_sources(const std::vector<std::string>& folders, const std::vector<std::string>& extensions) {
-  const std::filesystem::path root = RINK_SOURCE_DIR;
+  const std::filesystem::path root = test::source_folder();
   std::vector<SourceFile> sources;
   for (const std::string& folder : folders) {
     if (!std::filesystem::exists(root / folder)) continue;

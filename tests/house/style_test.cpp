@@ -1,5 +1,6 @@
 // The house style as far as a program can judge it.
 #include "tests/house/source_tree.h"
+#include "tests/places.h"
 
 namespace rink::house {
 namespace {
@@ -96,7 +97,7 @@ TEST(Style, NothingIsLeftForLater) {
 TEST(Style, DocumentsNameNoMachine) {
   const std::regex machine_path(R"((^|[\s`"'(=:])/(tmp|root|work|home)(/|\b))");
   auto documents = read_sources({"docs", "scenes"}, {".md", ".toml"});
-  const std::filesystem::path root = RINK_SOURCE_DIR;
+  const std::filesystem::path root = test::source_folder();
   if (std::filesystem::exists(root / "README.md")) documents.push_back(read_source(root, root / "README.md"));
   for_each_line(documents, [&](const SourceFile& source, std::size_t i, const std::string& line) {
     if (std::regex_search(line, machine_path)) report(source, i, "names a path of one machine; readers have others");

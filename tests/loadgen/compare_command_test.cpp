@@ -9,6 +9,7 @@
 
 #include "canned_reports.h"
 #include "loadgen/process.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -46,7 +47,7 @@ class CompareCommandTest : public testing::Test {
   }
   /// Runs the command to its end; `errors_` is what it said.
   int exit_status_of(const std::vector<std::string>& arguments) {
-    Process compare(std::string(RINK_BINARY_DIR) + "/bin/rink-compare", arguments, {});
+    Process compare(test::binary_folder() + "/bin/rink-compare", arguments, {});
     while (!compare.ending()) compare.attend(std::chrono::milliseconds(20));
     errors_ = compare.last_words();
     return compare.ending()->exit_status;
@@ -96,7 +97,7 @@ TEST_F(CompareCommandTest, BadInputEndsBeforeAnythingRuns) {
 
 TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
   write("hang-grid", "");
-  Process compare(std::string(RINK_BINARY_DIR) + "/bin/rink-compare", arguments("small.toml"), {});
+  Process compare(test::binary_folder() + "/bin/rink-compare", arguments("small.toml"), {});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (content("out/runs.jsonl").empty() && std::chrono::steady_clock::now() < limit) compare.attend(std::chrono::milliseconds(20));
   compare.stop(std::chrono::seconds(20));

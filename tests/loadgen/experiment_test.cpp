@@ -8,6 +8,7 @@
 #include <set>
 
 #include "loadgen/plan_text.h"
+#include "tests/places.h"
 
 namespace rink::loadgen {
 namespace {
@@ -125,7 +126,7 @@ TEST(ExperimentFile, RatiosReferToNoFilterOrElseToTheFirstScheme) {
 }
 
 TEST(ExperimentFile, TheInstalledExperimentsAreSoundAndTheDefaultIsShort) {
-  const std::filesystem::path folder = std::filesystem::path(RINK_SOURCE_DIR) / "scenes/experiments";
+  const std::filesystem::path folder = std::filesystem::path(test::source_folder()) / "scenes/experiments";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) EXPECT_FALSE(cells_of(load_experiment(entry.path(), {})).empty()) << entry.path();
   const auto expected_s = [](const Experiment& experiment) { return expected_cell_s(experiment) * static_cast<double>(cells_of(experiment).size()); };
   const Experiment standard = load_experiment(folder / "default.toml", {}), full = load_experiment(folder / "full.toml", {}), gains = load_experiment(folder / "gains.toml", {});

@@ -17,6 +17,7 @@
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/summary.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -30,8 +31,8 @@ class VirtualRunTest : public testing::Test {
  protected:
   VirtualRunTest() {
     settings_.directory = folder_;
-    settings_.serve = std::string(RINK_BINARY_DIR) + "/bin/rink-serve";
-    settings_.bots = std::string(RINK_BINARY_DIR) + "/bin/rink-bots";
+    settings_.serve = test::binary_folder() + "/bin/rink-serve";
+    settings_.bots = test::binary_folder() + "/bin/rink-bots";
     experiment_.name = "small";
     experiment_.scene = "crowd";
     experiment_.transport = TransportKind::virtual_time;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "loadgen/process.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -15,7 +16,7 @@ using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-std::filesystem::path command(const std::string& name) { return std::string(RINK_BINARY_DIR) + "/bin/rink-" + name; }
+std::filesystem::path command(const std::string& name) { return test::binary_folder() + "/bin/rink-" + name; }
 
 int status_of(Process& process, std::chrono::seconds patience) {
   const auto limit = std::chrono::steady_clock::now() + patience;

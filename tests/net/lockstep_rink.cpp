@@ -2,6 +2,7 @@
 #include "tests/net/lockstep_rink.h"
 
 #include "game/replication/trajectory_codec.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -18,7 +19,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
 
 LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
     : settings_(settings),
-      fom_(load_rink_fom(RINK_SOURCE_DIR "/game/net/rink.fom.xml")),
+      fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
       model_(fom_),
       hub_(network_),
       server_endpoint_(network_),

@@ -10,6 +10,7 @@
 
 #include "game/control/replay.h"
 #include "loadgen/process.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -25,7 +26,7 @@ struct Ended {
 };
 
 Ended run(const std::string& command, const std::vector<std::string>& arguments) {
-  Process process(std::string(RINK_BINARY_DIR) + "/bin/" + command, arguments, {});
+  Process process(test::binary_folder() + "/bin/" + command, arguments, {});
   const auto limit = std::chrono::steady_clock::now() + 20s;
   while (!process.ending() && std::chrono::steady_clock::now() < limit) process.attend(20ms);
   if (!process.ending()) return {};
@@ -60,7 +61,7 @@ TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWher
   const std::filesystem::path folder = testing::TempDir();
   std::ofstream(folder / "own.fom.xml") << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
 <attribute><name>shape</name><dataType>HLAoctet</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
-  std::ofstream(folder / "rink.toml") << "federation = \"rink\"\nfom = [\"" RINK_SOURCE_DIR "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
+  std::ofstream(folder / "rink.toml") << "federation = \"rink\"\nfom = [\"" + test::source_folder() + "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
   const Ended ended = run("rink-serve", {"--scene", "match", "--federation", (folder / "rink.toml").string()});
   EXPECT_NE(ended.status, 0);
   EXPECT_THAT(ended.words, testing::AllOf(HasSubstr("own.fom.xml:2: InconsistentFDD: <attribute> 'shape' of class 'Entity'"), HasSubstr("game/net/rink.fom.xml:")));
@@ -93,7 +94,7 @@ TEST(ServeCommand, ResultsThatCannotBeWrittenAreNamedBeforeTheRun) {
 
 TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   const std::filesystem::path report = std::filesystem::path(testing::TempDir()) / ("serve-" + std::to_string(getpid()) + ".json");
-  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve",
+  Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--pace", "synchronous", "--port", "0", "--report", report.string()}, {});
   const auto limit = std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
   while (!server.ending() && std::chrono::steady_clock::now() < limit) server.attend(20ms);
@@ -104,11 +105,11 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
 }
 
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
-  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
   ASSERT_TRUE(place) << server.last_words();
-  Process status(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--status", *place}, {});
+  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place}, {});
   for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
   ASSERT_TRUE(status.ending());
   EXPECT_EQ(status.ending()->exit_status, 0) << status.last_words();
@@ -121,11 +122,11 @@ TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
 }
 
 TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
-  Process server(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
+  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
   ASSERT_TRUE(place) << server.last_words();
-  Process status(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
+  Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
   for (int i = 0; i < 30 && !status.ending(); ++i) status.attend(20ms);
   EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.last_words();
   status.stop(5s);
@@ -143,12 +144,12 @@ TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
 }
 
 TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
-  auto server = std::make_unique<Process>(std::string(RINK_BINARY_DIR) + "/bin/rink-serve", std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
+  auto server = std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
                                           std::vector<int>{});
   std::optional<std::string> place;
   for (int i = 0; i < 500 && !place; ++i) server->attend(10ms), place = server->line_after("listening on ");
   ASSERT_TRUE(place) << server->last_words();
-  Process bots(std::string(RINK_BINARY_DIR) + "/bin/rink-bots", {"--connect", *place, "--count", "2", "--duration", "60"}, {});
+  Process bots(test::binary_folder() + "/bin/rink-bots", {"--connect", *place, "--count", "2", "--duration", "60"}, {});
   for (int i = 0; i < 50; ++i) bots.attend(20ms);
   ASSERT_FALSE(bots.ending()) << bots.last_words();
   server.reset();

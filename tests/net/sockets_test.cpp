@@ -10,6 +10,7 @@
 #include "rti/transport/tcp.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -22,7 +23,7 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 
 /// The server's thread: waits for two players, then ticks in real time until the duration is over. Returns the final state's hash.
 std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log, const std::string& scheme, std::atomic<std::uint16_t>& port) {
-  const rti::Fom fom = load_rink_fom(RINK_SOURCE_DIR "/game/net/rink.fom.xml");
+  const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
   rti::InProcessNetwork network;
   rti::InProcessEndpoint hub(network), endpoint(network);
   rti::TcpTransport tcp;
@@ -88,7 +89,7 @@ TEST_P(ThreadedSockets, CarryTheVeryGameThatIsPlayedAlone) {
   std::thread server([&] { hash = serve(scene, log, GetParam(), port); });
   while (port == 0) std::this_thread::sleep_for(1ms);
 
-  const rti::Fom fom = load_rink_fom(RINK_SOURCE_DIR "/game/net/rink.fom.xml");
+  const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
   rti::TcpTransport transport;
   loadgen::BotCrowd crowd(fom, transport, {.duration_s = duration_s - 0.1}, 2, log, now_s);
   crowd.connect([&](std::uint32_t) { return transport.connect("127.0.0.1", port); });

@@ -17,6 +17,7 @@
 #include "rti/transport/socket_transport.h"
 #include "rti/transport/virtual_network.h"
 #include "tests/net/scenes.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
@@ -86,7 +87,7 @@ class SynchronousGame {
   SynchronousGame(const Carrier& carrier, const std::string& policy)
       : carrier_(carrier),
         scene_(small_crowd()),
-        fom_(load_rink_fom(RINK_SOURCE_DIR "/game/net/rink.fom.xml")),
+        fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
         model_(fom_),
         serving_(fom_, scene_, {.policy = policy, .replay = {}}, federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
     serving_.host().add(carrier.server());

@@ -11,6 +11,7 @@
 
 #include "rti/ambassador.h"
 #include "rti/transport/federate_link.h"
+#include "tests/places.h"
 
 namespace rink::rti::airport {
 
@@ -21,7 +22,7 @@ inline constexpr double sector_m = 1000.0;     ///< a sector is a square of this
 
 /// The object model and the handles of its parts.
 struct Model {
-  Fom fom = Fom::load(RINK_SOURCE_DIR "/tests/rti/airport.fom.xml");
+  Fom fom = Fom::load(test::source_folder() + "/tests/rti/airport.fom.xml");
   ObjectClassHandle aircraft = *fom.object_class("Aircraft");
   AttributeHandle position = *fom.attribute(aircraft, "position"), clearance = *fom.attribute(aircraft, "clearance");
   InteractionClassHandle wind = *fom.interaction_class("Wind");

@@ -8,6 +8,7 @@
 
 #include "rti/callbacks/callback_queue.h"
 #include "rti/wire/federation_messages.h"
+#include "tests/places.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -17,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 std::map<std::string, int> callbacks_in(const std::string& path, const std::string& pattern) {
-  std::ifstream file(std::string(RINK_SOURCE_DIR) + path);
+  std::ifstream file(test::source_folder() + path);
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   const std::regex expression(pattern);
   std::map<std::string, int> counts;

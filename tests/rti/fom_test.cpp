@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/federation_file.h"
+#include "tests/places.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -46,7 +47,7 @@ TEST(Fom, HashTellsModelsApartButNotTheirComments) {
 }
 
 TEST(Fom, RinksOwnHasTheSizesThatTheWireCountsOn) {
-  const Fom fom = Fom::load(RINK_SOURCE_DIR "/game/net/rink.fom.xml");
+  const Fom fom = Fom::load(test::source_folder() + "/game/net/rink.fom.xml");
   const ObjectClassHandle entity = *fom.object_class("Entity");
   EXPECT_EQ(fom.values_size(entity, AttributeSet{*fom.attribute(entity, "position")}), 8u);
   EXPECT_TRUE(fom.interaction_class("KeyDown") && fom.interaction_class("KeyUp") && fom.interaction_class("Update"));

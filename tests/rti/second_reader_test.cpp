@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/places.h"
 #include "tests/rti/rig.h"
 #include "tests/temporary_folder.h"
 
@@ -262,7 +263,7 @@ TEST(SecondReader, HearsEveryByteOfAConversationByTheWirePageAlone) {
   const std::string base = std::filesystem::path(folder).string();
   std::ofstream(base + "/model.xml") << harbour_xml;
   std::ofstream(base + "/session", std::ios::binary) << session.record();
-  const std::string heard = output_of("python3 -B '" RINK_SOURCE_DIR "/tests/rti/second_reader.py' '" + base + "/model.xml' '" + base + "/session' 2>&1");
+  const std::string heard = output_of("python3 -B '" + test::source_folder() + "/tests/rti/second_reader.py' '" + base + "/model.xml' '" + base + "/session' 2>&1");
   EXPECT_EQ(heard, session.expected());
   EXPECT_GT(std::ranges::count(heard, '\n'), 90);
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/places.h"
 #include "tests/rti/transport_kits.h"
 
 namespace rink::rti::testing {
@@ -303,7 +304,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TransportContract, ::testing::ValuesIn(transport
 
 std::string text_of_file(const std::string& path) {
   std::ostringstream text;
-  text << std::ifstream(std::string(RINK_SOURCE_DIR "/") + path).rdbuf();
+  text << std::ifstream(test::source_folder() + "/" + path).rdbuf();
   return text.str();
 }
 

@@ -13,6 +13,7 @@
 #include "game/view/application.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
+#include "tests/places.h"
 
 namespace rink::view {
 namespace {
@@ -141,12 +142,12 @@ class GoldenImages : public ::testing::Test {
     while (!renderer_->is_settled());
     frame();
     const Image seen = read_pixels(target_.framebuffer(), size_.width, size_.height);
-    const std::string golden = std::string(RINK_SOURCE_DIR) + "/tests/view/golden/" + name + ".png";
+    const std::string golden = test::source_folder() + "/tests/view/golden/" + name + ".png";
     if (std::getenv("RINK_RENEW_GOLDEN") != nullptr) return write_png(golden, seen);
     const Image wanted = std::filesystem::exists(golden) ? read_png(golden) : Image{};
     const Difference apart = difference(seen, wanted);
     if (apart.mean < 1.5 && apart.part_above_32 < 0.01) return;
-    const std::string folder = std::string(RINK_BINARY_DIR) + "/golden-images-that-differ/";
+    const std::string folder = test::binary_folder() + "/golden-images-that-differ/";
     std::filesystem::create_directories(folder);
     write_png(folder + name + ".actual.png", seen);
     write_png(folder + name + ".difference.png", difference_image(seen, wanted));

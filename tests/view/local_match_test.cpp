@@ -4,13 +4,14 @@
 #include <gmock/gmock.h>
 
 #include "game/model/scene_file.h"
+#include "tests/places.h"
 
 namespace rink::game {
 namespace {
 
 constexpr double frame = 1.0 / 60.0;
 
-Scene match_scene() { return load_scene(std::string(RINK_SOURCE_DIR) + "/scenes/match.toml"); }
+Scene match_scene() { return load_scene(test::source_folder() + "/scenes/match.toml"); }
 
 class LocalMatches : public ::testing::Test {
  protected:

@@ -13,6 +13,7 @@
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "rti/transport/tcp.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::view {
@@ -46,7 +47,7 @@ class PlayCommand : public ::testing::Test {
   /// The exit status; what was said on standard error is in `said_`.
   int play(const std::string& arguments, const std::string& script = {}) {
     std::ofstream(file("script")) << script;
-    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + RINK_BINARY_DIR + "/bin/rink-play " + arguments +
+    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + test::binary_folder() + "/bin/rink-play " + arguments +
                                 (script.empty() ? "" : " --offscreen --size 640x360 --script script") + " 2>err";
     const int status = std::system(command.c_str());
     said_ = test::text_of(file("err"));
@@ -92,7 +93,7 @@ TEST_F(PlayCommand, GoesOnWhereNothingCanBeKept) {
 
 TEST_F(PlayCommand, KeepsTheRecordWhenItIsInterrupted) {
   std::ofstream(file("script")) << "4 picture playing.png\n1000000 end\n";
-  const std::string command = "cd " + folder_.string() + " && { " + RINK_BINARY_DIR + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
+  const std::string command = "cd " + folder_.string() + " && { " + test::binary_folder() + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
                               "for i in $(seq 200); do [ -e playing.png ] && break; sleep 0.05; done; kill -INT $!; wait $!";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -145,7 +146,7 @@ class PlayCommandLong : public PlayCommand {};
 TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
   const std::string port = std::to_string(20'000 + getpid() % 20'000);
   std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
-  const std::string joining = "cd " + folder_.string() + " && (sleep 1; " + RINK_BINARY_DIR + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err; echo $? >joined_status) &";
+  const std::string joining = "cd " + folder_.string() + " && (sleep 1; " + test::binary_folder() + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err; echo $? >joined_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
   ASSERT_EQ(play("--host " + port + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
   for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
