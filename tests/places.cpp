@@ -1,3 +1,4 @@
+// The two folders, as the build defines them.
 #include "tests/places.h"
 
 namespace rink::test {
