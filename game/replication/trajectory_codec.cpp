@@ -10,6 +10,7 @@
 #include "game/replication/attributes.h"
 #include "game/replication/input_codec.h"
 #include "game/replication/trajectory.h"
+#include "rti/wire/bit_stream.h"
 
 namespace rink::game {
 namespace {
@@ -25,45 +26,21 @@ constexpr double time_ahead = 0.5;                                       // s: a
 constexpr double time_max = 1e12;                                        // s: beyond, multiples of the step are no longer exact
 constexpr std::size_t full_size = 1 + 9 * sizeof(double);
 
-class BitWriter {
- public:
-  explicit BitWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
-  void put(std::uint64_t value, unsigned count) {
-    for (unsigned taken = 0; taken < count; used_ %= 8) {
-      if (used_ == 0) bytes_.push_back(std::byte{0});
-      const unsigned part = std::min(8 - used_, count - taken);
-      bytes_.back() |= static_cast<std::byte>((value >> taken & ((1u << part) - 1u)) << used_);
-      taken += part, used_ += part;
-    }
-  }
+using rti::BitReader, rti::BitWriter;
 
- private:
-  std::vector<std::byte>& bytes_;
-  unsigned used_ = 0;
-};
-
+/// The `count` lowest bits of `value`.
+void put(BitWriter& bits, std::uint64_t value, unsigned count) { bits.bits(value & ((std::uint64_t{1} << count) - 1), count); }
 /// Must not be asked for more than is there.
-class BitReader {
- public:
-  explicit BitReader(rti::Bytes bytes) : bytes_(bytes) {}
-  std::uint64_t get(unsigned count) {
-    std::uint64_t value = 0;
-    for (unsigned taken = 0; taken < count;) {
-      const unsigned part = std::min(8 - static_cast<unsigned>(at_ % 8), count - taken);
-      value |= (static_cast<std::uint64_t>(bytes_[at_ / 8]) >> at_ % 8 & ((1u << part) - 1u)) << taken;
-      taken += part, at_ += part;
-    }
-    return value;
-  }
-  std::int64_t get_signed(unsigned count) {
-    const auto value = static_cast<std::int64_t>(get(count));
-    return value >> (count - 1) == 0 ? value : value - (std::int64_t{1} << count);
-  }
-
- private:
-  rti::Bytes bytes_;
-  std::size_t at_ = 0;
-};
+std::uint64_t get(BitReader& bits, unsigned count) {
+  std::uint64_t value = 0;
+  [[maybe_unused]] const bool is_there = bits.bits(value, count);
+  assert(is_there);
+  return value;
+}
+std::int64_t get_signed(BitReader& bits, unsigned count) {
+  const auto value = static_cast<std::int64_t>(get(bits, count));
+  return value >> (count - 1) == 0 ? value : value - (std::int64_t{1} << count);
+}
 
 /// True if `value` is a multiple of `step` that fits `bits` as a signed number.
 bool fits(double value, double step, unsigned bits) {
@@ -81,10 +58,10 @@ bool is_near(const Vector2& position) {
 }
 
 void put(BitWriter& bits, const Vector2& value, double step, unsigned count) {
-  for (const double each : {value.x(), value.y()}) bits.put(static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
+  for (const double each : {value.x(), value.y()}) put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(each / step)), count);
 }
 Vector2 get(BitReader& bits, double step, unsigned count) {
-  const double x = static_cast<double>(bits.get_signed(count)) * step, y = static_cast<double>(bits.get_signed(count)) * step;
+  const double x = static_cast<double>(get_signed(bits, count)) * step, y = static_cast<double>(get_signed(bits, count)) * step;
   return {x, y};
 }
 
@@ -143,10 +120,11 @@ static_assert(push_short_at < 8 * driven_size);
 
 /// Along each axis 0, 1 forwards or 2 backwards; then how hard: the upper half of a float if the lower one is 0.
 void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::byte>& coded) {
-  for (const double each : {acceleration.x(), acceleration.y()}) bits.put(each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
+  for (const double each : {acceleration.x(), acceleration.y()}) put(bits, each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, push_bits);
   const auto size = std::bit_cast<std::uint32_t>(static_cast<float>(acceleration.cwiseAbs().maxCoeff()));
   const bool is_short = (size & 0xffffu) == 0;
-  bits.put(is_short, 1);
+  put(bits, is_short, 1);
+  bits.finish();
   rti::Writer writer(coded);
   auto upper = static_cast<std::uint16_t>(size >> 16), lower = static_cast<std::uint16_t>(size);
   writer.number(upper);
@@ -154,8 +132,8 @@ void encode_push(const Vector2& acceleration, BitWriter& bits, std::vector<std::
 }
 
 bool decode_push(rti::Bytes coded, BitReader& bits, Vector2& acceleration) {
-  const std::uint64_t along[2] = {bits.get(push_bits), bits.get(push_bits)};
-  const bool is_short = bits.get(1) != 0;
+  const std::uint64_t along[2] = {get(bits, push_bits), get(bits, push_bits)};
+  const bool is_short = get(bits, 1) != 0;
   rti::Reader reader(coded);
   std::uint16_t upper = 0, lower = 0;
   if (!reader.number(upper) || (!is_short && !reader.number(lower))) return false;
@@ -208,17 +186,21 @@ void TrajectoryCodec::encode(rti::Bytes value, double time, std::vector<std::byt
   assert(is_sound);
   const Form form = form_of(t, time);
   BitWriter bits(coded);
-  bits.put(form, form == driven ? form_bits + 1 : form_bits);
-  if (form == full) return append(coded, t);
-  if (form != resting) bits.put(static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)), time_bits);
+  put(bits, form, form == driven ? form_bits + 1 : form_bits);
+  if (form == full) {
+    bits.finish();
+    return append(coded, t);
+  }
+  if (form != resting) put(bits, static_cast<std::uint64_t>(static_cast<std::int64_t>(t.time / trajectory_time_step)), time_bits);
   if (form == wide) put(bits, t.position, trajectory_position_step, wide_position_bits);
   else put(bits, from_middle(t.position), trajectory_position_step, near_position_bits);
   if (form == near) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits);
   if (form == driven) put(bits, t.velocity, trajectory_velocity_step, near_velocity_bits), encode_push(t.acceleration, bits, coded);
   if (form != wide) return;
   put(bits, t.velocity, trajectory_velocity_step, wide_velocity_bits);
-  bits.put(!t.acceleration.isZero(0.0), 1);
-  for (const double each : {t.drag.x(), t.drag.y()}) bits.put(each == Trajectory::of_its_kind, 1);
+  put(bits, !t.acceleration.isZero(0.0), 1);
+  for (const double each : {t.drag.x(), t.drag.y()}) put(bits, each == Trajectory::of_its_kind, 1);
+  bits.finish();
   encode_law(t, coded);
 }
 
@@ -230,8 +212,8 @@ std::optional<std::size_t> TrajectoryCodec::size(rti::Bytes coded) const {
 bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const {
   if (size(coded) != coded.size()) return false;
   BitReader bits(coded);
-  auto form = static_cast<Form>(bits.get(form_bits));
-  if (form == full && bits.get(1) != 0) form = driven;
+  auto form = static_cast<Form>(get(bits, form_bits));
+  if (form == full && get(bits, 1) != 0) form = driven;
   Trajectory t;
   if (form == full) {
     if (!game::decode(coded.subspan(1), t)) return false;
@@ -239,13 +221,13 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
     return true;
   }
   if (form != resting && !(std::abs(time) < 2.0 * time_max)) return false;
-  if (form != resting) t.time = resolved(bits.get(time_bits), time);
+  if (form != resting) t.time = resolved(get(bits, time_bits), time);
   t.position = form == wide ? get(bits, trajectory_position_step, wide_position_bits)
                             : Vector2(get(bits, trajectory_position_step, near_position_bits) + Vector2::Constant(near_middle));
   if (form != resting) t.velocity = get(bits, trajectory_velocity_step, form == wide ? wide_velocity_bits : near_velocity_bits);
   if (form == driven && !decode_push(coded.subspan(driven_size), bits, t.acceleration)) return false;
   if (form == wide) {
-    const bool has_acceleration = bits.get(1) != 0, is_own_x = bits.get(1) != 0, is_own_y = bits.get(1) != 0;
+    const bool has_acceleration = get(bits, 1) != 0, is_own_x = get(bits, 1) != 0, is_own_y = get(bits, 1) != 0;
     if (!decode_law(coded.subspan(wide_size), has_acceleration, {is_own_x, is_own_y}, t)) return false;
   }
   if (!has_sound_law(t)) return false;
