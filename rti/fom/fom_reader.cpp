@@ -40,7 +40,12 @@ class FomReader {
   Attribute read_attribute(const Node& node, const ObjectClass& owner);
   void read_interaction_class(const Group& group, InteractionClassHandle parent);
   void quantise(Attribute& attribute, bool is_periodic);
-  Parameter read_parameter(const Node& node, const InteractionClass& owner);
+  template <class Member>
+  Member read_member(const Node& node, const std::vector<Member>& others, const std::string& owner);
+  template <class Member>
+  void add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node, const Node& owner, const char* kind) const;
+  template <class Handle, class Class>
+  Handle add_class(std::vector<Class>& classes, Class read, const Node& node, const char* kind) const;
   Transportation transportation(const Node& node) const;
   Order order(const Node& node) const;
   DimensionSet dimensions_of(const Node& node) const;
@@ -139,22 +144,14 @@ void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) 
   for (const Node& attribute : definition.children("attribute")) {
     if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
     modules_.require_unreserved({text(attribute, "name"), {attribute}});
-    object_class.attributes.push_back(read_attribute(attribute, object_class));
-    if (object_class.attributes.size() > named_attribute_max) fail(attribute, path(front) + " has more than " + std::to_string(named_attribute_max) + " attributes");
+    add_member(object_class.attributes, read_attribute(attribute, object_class), named_attribute_max, attribute, front, "attributes");
   }
-  const ObjectClassHandle handle{static_cast<std::uint32_t>(fom_.object_classes_.size())};
-  if (handle.value == class_max) fail(front, "more than " + std::to_string(class_max) + " object classes");
-  fom_.object_classes_.push_back(std::move(object_class));
+  const auto handle = add_class<ObjectClassHandle>(fom_.object_classes_, std::move(object_class), front, "object classes");
   for (const Group& child : modules_.groups(group.nodes, "objectClass")) read_object_class(child, handle);
 }
 
 Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) {
-  Attribute attribute;
-  attribute.name = text(node, "name");
-  for (const Attribute& other : owner.attributes)
-    if (other.name == attribute.name) fail(node, path(node) + " is declared twice in class '" + owner.name + "' or what it inherits");
-  attribute.data_type = text(node, "dataType");
-  attribute.size = types_.size_of(attribute.data_type, node);
+  Attribute attribute = read_member(node, owner.attributes, owner.name);
   attribute.transportation = transportation(node);
   attribute.order = order(node);
   attribute.dimensions = dimensions_of(node);
@@ -199,23 +196,36 @@ void FomReader::read_interaction_class(const Group& group, InteractionClassHandl
   interaction_class.dimensions = dimensions_of(definition);
   for (const Node& parameter : definition.children("parameter")) {
     modules_.require_unreserved({text(parameter, "name"), {parameter}});
-    interaction_class.parameters.push_back(read_parameter(parameter, interaction_class));
-    if (interaction_class.parameters.size() > parameter_max) fail(parameter, path(front) + " has more than " + std::to_string(parameter_max) + " parameters");
+    add_member(interaction_class.parameters, read_member(parameter, interaction_class.parameters, group.name), parameter_max, parameter, front, "parameters");
   }
-  const InteractionClassHandle handle{static_cast<std::uint32_t>(fom_.interaction_classes_.size())};
-  if (handle.value == class_max) fail(front, "more than " + std::to_string(class_max) + " interaction classes");
-  fom_.interaction_classes_.push_back(std::move(interaction_class));
+  const auto handle = add_class<InteractionClassHandle>(fom_.interaction_classes_, std::move(interaction_class), front, "interaction classes");
   for (const Group& child : modules_.groups(group.nodes, "interactionClass")) read_interaction_class(child, handle);
 }
 
-Parameter FomReader::read_parameter(const Node& node, const InteractionClass& owner) {
-  Parameter parameter;
-  parameter.name = text(node, "name");
-  for (const Parameter& other : owner.parameters)
-    if (other.name == parameter.name) fail(node, path(node) + " is declared twice in class '" + owner.name + "' or what it inherits");
-  parameter.data_type = text(node, "dataType");
-  parameter.size = types_.size_of(parameter.data_type, node);
-  return parameter;
+/// What attributes and parameters have in common; `others` are the members of class `owner` so far, inherited ones included.
+template <class Member>
+Member FomReader::read_member(const Node& node, const std::vector<Member>& others, const std::string& owner) {
+  Member member;
+  member.name = text(node, "name");
+  for (const Member& other : others)
+    if (other.name == member.name) fail(node, path(node) + " is declared twice in class '" + owner + "' or what it inherits");
+  member.data_type = text(node, "dataType");
+  member.size = types_.size_of(member.data_type, node);
+  return member;
+}
+
+template <class Member>
+void FomReader::add_member(std::vector<Member>& members, Member member, std::size_t most, const Node& node, const Node& owner, const char* kind) const {
+  members.push_back(std::move(member));
+  if (members.size() > most) fail(node, path(owner) + " has more than " + std::to_string(most) + " " + kind);
+}
+
+template <class Handle, class Class>
+Handle FomReader::add_class(std::vector<Class>& classes, Class read, const Node& node, const char* kind) const {
+  const Handle handle{static_cast<std::uint32_t>(classes.size())};
+  if (handle.value == class_max) fail(node, "more than " + std::to_string(class_max) + " " + kind);
+  classes.push_back(std::move(read));
+  return handle;
 }
 
 std::uint64_t FomReader::hash() const {

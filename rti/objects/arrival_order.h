@@ -16,7 +16,7 @@ class ArrivalOrder {
   explicit ArrivalOrder(const Fom& fom) {
     for (const ObjectClass& each : fom.object_classes()) {
       best_effort_.push_back(best_effort_attributes(each));
-      stride_ = std::max(stride_, static_cast<std::size_t>(best_effort_.back().count()));
+      stride_ = std::max(stride_, best_effort_.back().count());
     }
   }
 
