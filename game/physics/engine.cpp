@@ -130,6 +130,7 @@ template <class Real>
 void BasicEngine<Real>::remove(std::uint32_t body) {
   Body& b = bodies_[body];
   if ((b.flags & removed) != 0) return;
+  keep(body);
   if ((b.flags & out_of_play) == 0) {
     wake(body, now_);
     for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, now_);
@@ -147,6 +148,7 @@ void BasicEngine<Real>::place(std::uint32_t puck, const Vector2& position, const
   Body& b = bodies_[puck];
   assert(b.kind == BodyKind::puck && (b.flags & gone) == out_of_play && position.allFinite() && velocity.allFinite());
   assert(is_free(position, {Vector2(0.0, 0.0), b.radius}));
+  keep(puck);
   b.x = position.x(), b.y = position.y(), b.vx = velocity.x(), b.vy = velocity.y(), b.time = now_;
   b.flags = static_cast<std::uint8_t>(b.flags & ~out_of_play);
   enter_mouth_if_inside(puck);
@@ -161,6 +163,8 @@ template <class Real>
 void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (builds_[bat].thrust == acceleration) return;
+  keep(bat);
+  if (journal_ != nullptr) journal_->time = now_;
   if (is_gone(bat)) {
     builds_[bat].thrust = acceleration;
     return;
@@ -239,6 +243,7 @@ void BasicEngine<Real>::process(std::uint32_t body, Real time) {
     ++counters_.stale_events;
     return predict(body);
   }
+  if (journal_ != nullptr) journal_->begin_event(time, std::min(body, p), std::max(body, p));
   count_event(time);
   if (p == partner::goal_line) score(body, time);
   else if (p == partner::release) release(body, time);
@@ -259,12 +264,14 @@ void BasicEngine<Real>::count_event(Real time) {
     is_hopeless_ = false;
   }
   counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
+  if (journal_ != nullptr) journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_);
 }
 
 template <class Real>
 void BasicEngine<Real>::settle() {
   if (spec_.accounts_energy) enter_impacts();
   if (is_slowed()) slide_touched();
+  if (journal_ != nullptr) enter_changes();
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     Body& b = bodies_[touched_[i]];
     b.flags = static_cast<std::uint8_t>(b.flags & ~touched);

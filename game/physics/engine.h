@@ -11,7 +11,9 @@
 #include "game/physics/cell_grid.h"
 #include "game/physics/event_schedule.h"
 #include "game/physics/impact_time.h"
+#include "game/physics/journal.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/partner.h"
 #include "game/physics/straight_flight.h"
 #include "game/physics/sum.h"
 #include "game/physics/world.h"
@@ -22,20 +24,6 @@ namespace rink::physics {
 constexpr double instant = 1e-9;
 /// Bodies nearer than this take part in a hop [m].
 constexpr double cluster_gap = 2e-6;
-
-/// A contact partner: a body, or one of the fixed parts of the field.
-using Partner = std::uint32_t;
-namespace partner {
-constexpr Partner none = 0xffffffff;
-constexpr Partner field_parts = 0xfffffff0;  ///< every partner from here on is a part of the field
-constexpr Partner wall_left = field_parts + 0, wall_right = field_parts + 1, wall_bottom = field_parts + 2, wall_top = field_parts + 3;
-constexpr Partner halfway = field_parts + 4;
-constexpr Partner edge_left_low = field_parts + 5, edge_left_high = field_parts + 6, edge_right_low = field_parts + 7, edge_right_high = field_parts + 8;
-constexpr Partner mouth_in = field_parts + 9, mouth_out = field_parts + 10;  ///< a puck passes between the edges of a goal
-constexpr Partner goal_line = field_parts + 11;
-constexpr Partner release = field_parts + 12;  ///< a rest contact ends
-constexpr Partner stop = field_parts + 13;     ///< friction has brought a puck to rest
-}  // namespace partner
 
 /// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
 template <class Real>
@@ -74,6 +62,7 @@ class BasicEngine {
 
  private:
   friend class BasicWorld<Real>;
+  friend class Portion;
 
   enum Flag : std::uint8_t { removed = 1, out_of_play = 2, curved = 4, held_x = 8, held_y = 16, frozen = 32, touched = 64, pending = 128 };
   static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
@@ -124,14 +113,7 @@ class BasicEngine {
     bool is_tied;  // another impact of the body comes within the instant
   };
   static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left, false};
-  /// Rest contact along `axis`: `low` is on the side of smaller coordinates. Fixed partners are posts or parts of the field.
-  struct Hold {
-    Partner low, high;
-    int axis;
-    Real pull_time;  // when the contact force vanishes by drag
-    Real force;      // of the last solution
-    Real turn_time;  // when the friction of pucks in the group takes another direction, or all of it has come to a stop
-  };
+  using Hold = BasicHold<Real>;
   struct Contact {
     std::uint32_t body;
     Partner partner;
@@ -186,6 +168,15 @@ class BasicEngine {
   Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
   void touch(std::uint32_t body);
   void wake(std::uint32_t body, Real time);
+
+  // engine_journal.cpp: what a portion of a world keeps of a window (portion.h)
+  void keep(std::uint32_t body) {
+    if (journal_ != nullptr) keep_state(body);
+  }
+  void keep_state(std::uint32_t body);
+  void enter_changes();
+  BasicBodyState<Real> state_of(std::uint32_t body) const;
+  std::uint64_t conditions_of(std::uint32_t body) const;
 
   // engine_friction.cpp
   bool is_slowed() const { return spec_.puck_friction > 0.0; }
@@ -372,6 +363,7 @@ class BasicEngine {
   std::vector<Real> energies_;       // of the bodies in touched_, before what happens to them now
   bool records_events_ = false;
   std::vector<Event> events_;
+  BasicJournal<Real>* journal_ = nullptr;
 };
 using Engine = BasicEngine<double>;
 

@@ -49,7 +49,10 @@ bool BasicEngine<Real>::hop(const Contact& c, Real approach, Real pressing, Real
     rhythm.last_hop = time;
   }
   const std::uint32_t hops = rhythms_[c.body].hops;
-  for (const std::uint32_t body : joint_) ++rhythms_[body].hops;
+  for (const std::uint32_t body : joint_) {
+    ++rhythms_[body].hops;
+    if (journal_ != nullptr) journal_->stir(body, 0x80000000u | rhythms_[body].hops);
+  }
   if (may_freeze && ((hops % 4 == 0 && freeze(thrust_max)) || (hops >= long_series && hops % 16 == 0 && freeze_loosely(c, std::max<Real>(rest_speed_, 2.0 * approach), time)))) {
     note(EventKind::freeze, time, c.body, c.partner);
     return true;

@@ -79,6 +79,7 @@ void BasicEngine<Real>::calm(int axis, const std::vector<std::uint32_t>& members
   const bool is_group_calm = std::abs(velocity_of(members.front())[axis]) <= calm_speed;
   for (const std::uint32_t member : members) {
     Body& b = bodies_[member];
+    keep(member);
     if (is_group_calm) (axis == 0 ? b.vx : b.vy) = 0.0;
     Real& across = axis == 0 ? b.vy : b.vx;
     if (is_slowed(member) && std::abs(across) <= calm_speed && (b.flags & held_along(1 - axis)) == 0) across = 0.0;

@@ -62,11 +62,13 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   note(EventKind::puck_puck, time, low, high);
   counters_.evaluations += (a.time < time) + (b.time < time);
   counters_.bodies_touched += 2;
+  if (journal_ != nullptr) journal_->keep_flight(low, a), journal_->keep_flight(high, b);
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * (x * x + y * y));
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
   b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
+  if (journal_ != nullptr) journal_->enter(low, a, a.mouth), journal_->enter(high, b, b.mouth), ++journal_->event;
   predict(low);
   predict(high);
   return true;
@@ -168,12 +170,14 @@ void BasicEngine<Real>::count_impact(std::uint32_t body, Partner p, Real time) {
 
 template <class Real>
 void BasicEngine<Real>::note_impact(std::uint32_t body, Real time) {
+  keep(body);
   Rhythm& rhythm = rhythms_[body];
   if (time - rhythm.window_start > contact_time_) {
     rhythm.window_start = time;
     rhythm.impacts = 0;
   }
   ++rhythm.impacts;
+  if (journal_ != nullptr) journal_->stir(body, rhythm.impacts);
 }
 
 template class BasicEngine<double>;

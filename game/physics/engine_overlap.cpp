@@ -1,4 +1,5 @@
 // Bodies that are pushed to and fro at one instant, for they started in overlap or have no room: time must advance all the same.
+#include <algorithm>
 #include <limits>
 
 #include "game/physics/engine.h"
@@ -51,11 +52,12 @@ void BasicEngine<Real>::stop_around(const Contact& c, Real time) {
 template <class Real>
 void BasicEngine<Real>::stop_cluster() {
   ++jam_count_;
+  const std::uint32_t jam = *std::min_element(joint_.begin(), joint_.end());  // nobody is in two, so that it names the jam in every world
   for (const std::uint32_t body : joint_) {
     Body& b = bodies_[body];
     b.vx = b.vy = 0.0;
     b.flags |= frozen;
-    jams_[body] = jam_count_;
+    jams_[body] = jam;
     frozen_.push_back(body);
     for (int axis = 0; axis < 2; ++axis) set_law(body, axis, 0.0, own_drag(body));
   }

@@ -65,7 +65,7 @@ void BasicEngine<Real>::rest(const Contact& c, Real time) {
   note(EventKind::rest, time, c.body, c.partner);
   const int axis = c.gap.face;
   const bool is_body_high = c.gap.normal[axis] > 0.0;
-  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0, infinity});
+  holds_.push_back({is_body_high ? c.partner : c.body, is_body_high ? c.body : c.partner, axis, infinity, 0.0, infinity, journal_ ? journal_->next_age() : HoldAge{}});
   for (const Partner p : {c.body, c.partner})
     if (!is_fixed(p)) bodies_[p].flags |= held_along(axis);
   const std::vector<std::uint32_t> members = companions(c.body, held_along(axis));

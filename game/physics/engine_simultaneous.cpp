@@ -44,9 +44,11 @@ bool BasicEngine<Real>::is_endless() const { return events_at_once_ % endless_ev
 template <class Real>
 bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
   if (is_rough() || is_hopeless_ || !(gather_touching(c, time) || is_endless())) return false;
+  if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
   velocities_before_ = joint_velocities_;
   const Real energy = joint_energy();
   is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>));
+  if (is_hopeless_ && journal_ != nullptr) journal_->was_hopeless = true;
   if (is_hopeless_) return false;
   ++counters_.joint_impacts;
   apply_joint(time);

@@ -78,7 +78,8 @@ bool exchange_body(Stream& stream, Body& body, Build& build, Law& law, Rhythm& r
 
 template <class Stream, class Hold>
 bool exchange_hold(Stream& stream, Hold& hold) {
-  auto& [low, high, axis, pull_time, force, turn_time] = hold;
+  auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
+  static_cast<void>(age);  // they stand in order of it
   return stream.numbers(low, high, axis, pull_time, force, turn_time);
 }
 

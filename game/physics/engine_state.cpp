@@ -18,6 +18,7 @@ template <class Real>
 void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
   Body& b = bodies_[body];
   if (b.kind == BodyKind::post) return;
+  keep(body);
   if (b.time < time) {
     ++counters_.evaluations;
     if (spec_.accounts_energy) enter_expense(body, time);
@@ -46,6 +47,7 @@ void BasicEngine<Real>::rebase_companions(std::uint32_t body, Real time) {
 
 template <class Real>
 void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
+  keep(body);
   laws_[body].acceleration[axis] = acceleration;
   laws_[body].drag[axis] = drag;
   write_law(body);
@@ -71,6 +73,7 @@ void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
       ++i;
       continue;
     }
+    keep(member);
     frozen_[i] = frozen_.back();
     frozen_.pop_back();
     bodies_[member].flags = static_cast<std::uint8_t>(bodies_[member].flags & ~frozen);

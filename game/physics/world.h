@@ -107,6 +107,7 @@ class BasicWorld {
   std::uint64_t hash() const;
 
  private:
+  friend class Portion;
   explicit BasicWorld(std::unique_ptr<BasicEngine<Real>> engine);
   std::unique_ptr<BasicEngine<Real>> engine_;
 };

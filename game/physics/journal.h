@@ -1,0 +1,79 @@
+// What happened to which body in a window of time, and what it takes to undo it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/body_state.h"
+#include "game/physics/counters.h"
+
+namespace rink::physics {
+
+/// The part of one body in one event: the state in which it went on. One that was only looked at went on as before.
+template <class Real>
+struct BasicChange {
+  static constexpr std::uint32_t straight = 0xffffffff;
+
+  Real time;              ///< of the event [s]
+  Real x, y, vx, vy, since;  ///< as of Flight
+  std::uint64_t conditions;  ///< a digest of all else that its future depends on
+  std::uint32_t body, event;  ///< changes of one event have the same number, and stand side by side
+  std::uint32_t motion;       ///< in BasicJournal::motions; `straight` if it flies freely
+  bool is_looked_at;
+};
+using Change = BasicChange<double>;
+
+/// Kept by a world for the portion that looks at it (portion.h).
+template <class Real>
+struct BasicJournal {
+  struct KeptFlight {
+    std::uint32_t body;
+    Flight<Real> flight;
+  };
+  struct KeptState {
+    std::uint32_t body;
+    BasicBodyState<Real> state;  ///< but for the flight
+  };
+  /// What is kept of a body, and where: its flight if `number` is that of this window, all of it if it is one more.
+  struct Mark {
+    std::uint32_t number = 0, flight = 0, state = 0;
+  };
+
+  std::vector<BasicChange<Real>> changes;
+  std::vector<BasicMotion<Real>> motions;  ///< of those that went on along a curve
+  std::vector<KeptFlight> flights;         ///< of all that changed, before that
+  std::vector<KeptState> states;           ///< of those that changed otherwise than in a free impact
+  std::vector<std::uint32_t> looked_at;    ///< by the event at hand
+  std::vector<Mark> marks;                 ///< by body
+  std::uint32_t mark = 2;
+  std::uint32_t event = 0;
+  std::uint64_t stirred = 0;               ///< a digest of what the event at hand does to the rhythm of impacts
+  Real time = 0.0;                         ///< of it
+  std::uint64_t at_once_max = 0;           ///< the most events at one instant
+  bool was_hopeless = false;               ///< a joint impact could not be solved
+  HoldAge age;
+
+  void keep_flight(std::uint32_t body, const Flight<Real>& flight) {
+    if (marks[body].number >= mark) return;
+    marks[body] = {mark, static_cast<std::uint32_t>(flights.size()), 0};
+    flights.push_back({body, flight});
+  }
+  void enter(std::uint32_t body, const Flight<Real>& f, std::uint64_t conditions) {
+    changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight, false});
+  }
+  /// The event that is about to be processed.
+  void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {
+    const HoldAge next{static_cast<double>(at), lower, higher, 0};
+    age = next.time == age.time ? std::max(age, next) : next;
+    time = at;
+  }
+  void stir(std::uint32_t body, std::uint32_t count) { stirred += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL; }
+  HoldAge next_age() {
+    ++age.rank;
+    return age;
+  }
+};
+using Journal = BasicJournal<double>;
+
+}  // namespace rink::physics

@@ -1,0 +1,154 @@
+// Bodies put into their slots and taken from them, and windows undone.
+#include "game/physics/portion.h"
+
+#include <algorithm>
+
+#include "game/physics/engine.h"
+
+namespace rink::physics {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}
+
+Portion::Portion(const WorldSpec& spec, std::uint32_t body_count) : world_(spec), is_there_(body_count, 0) {
+  Engine& e = engine();
+  e.bodies_.assign(body_count, {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0, BodyKind::puck, 0, Engine::removed, Engine::no_mouth});
+  e.builds_.assign(body_count, {1.0, 0.0, Vector2(0.0, 0.0), Vector2(0.0, 0.0), Half::both});
+  e.laws_.assign(body_count, {Vector2(0.0, 0.0), Vector2::Constant(spec.puck_drag)});
+  e.rhythms_.resize(body_count);
+  e.jams_.assign(body_count, 0);
+  if (e.is_slowed()) e.rest_times_.assign(body_count, infinity), e.slowing_.assign(body_count, Vector2(0.0, 0.0));
+  if (e.is_rough()) e.spins_.assign(body_count, 0.0);
+  journal_.marks.resize(body_count);
+  e.rebuild_from_state();
+  e.journal_ = &journal_;
+}
+
+Portion::~Portion() { engine().journal_ = nullptr; }
+
+BodyState Portion::state_in(const World& world, std::uint32_t body) { return world.engine_->state_of(body); }
+
+BodyState Portion::state_before(std::uint32_t body) const {
+  const Journal::Mark& mark = journal_.marks[body];
+  BodyState before = mark.number > journal_.mark ? journal_.states[mark.state].state : state(body);
+  if (mark.number >= journal_.mark) before.flight = journal_.flights[mark.flight].flight;
+  return before;
+}
+
+Motion Portion::motion_before(std::uint32_t body) const {
+  return journal_.marks[body].number < journal_.mark ? engine().motion(body) : state_before(body).motion();
+}
+
+bool Portion::was_gone(std::uint32_t body) const {
+  const Journal::Mark& mark = journal_.marks[body];
+  const std::uint8_t flags = mark.number > journal_.mark ? journal_.states[mark.state].state.flags : engine().bodies_[body].flags;
+  return (flags & Engine::gone) != 0;
+}
+
+/// All of the body's state, but not where it is listed.
+void Portion::write(std::uint32_t body, const BodyState& s) {
+  Engine& e = engine();
+  Engine::Body& b = e.bodies_[body];
+  const auto kept = static_cast<std::uint8_t>(b.flags & (Engine::curved | Engine::pending));
+  static_cast<Flight<double>&>(b) = s.flight;
+  b.inverse_mass = s.inverse_mass, b.kind = s.kind, b.material = s.material, b.mouth = s.mouth;
+  b.flags = static_cast<std::uint8_t>(kept | s.flags);
+  ++b.version;
+  e.builds_[body] = {s.mass, s.inverse_mass, s.half_extent, s.thrust, s.half};
+  e.laws_[body] = {s.acceleration, s.drag};
+  Engine::Rhythm& rhythm = e.rhythms_[body];
+  rhythm.window_start = s.impacts_begin, rhythm.last_hop = s.last_hop, rhythm.impacts = s.impacts, rhythm.hops = s.hops;
+  rhythm.repeats = {s.repeats_instant, s.repeats};
+  if (e.is_slowed()) e.rest_times_[body] = s.rest_time, e.slowing_[body] = s.slowing;
+  if (e.is_rough()) e.spins_[body] = s.spin;
+  e.jams_[body] = s.jam;
+  e.write_law(body);
+}
+
+void Portion::put(std::uint32_t body, const BodyState& s) {
+  Engine& e = engine();
+  std::erase(e.frozen_, body);
+  write(body, s);
+  is_there_[body] = 1;
+  if ((s.flags & Engine::frozen) != 0) e.frozen_.push_back(body);
+  e.grid_.remove(body);
+  e.queue_.set(body, infinity, body, body);
+  e.slots_[body] = Engine::no_event;
+  if (e.is_gone(body)) return;
+  if (e.reach_of(body) > e.reach_) {
+    e.reach_ = e.reach_of(body);
+    return e.rebuild_grid();
+  }
+  const Vector2 position = e.at(body, e.now_).position;
+  e.grid_.insert(body, position.x(), position.y());
+  e.require_prediction(body);
+}
+
+void Portion::drop(std::uint32_t body) {
+  if (!is_there(body)) return;
+  Engine& e = engine();
+  std::erase(e.frozen_, body);
+  BodyState blank;
+  blank.inverse_mass = 0.0, blank.flags = Engine::removed, blank.drag = Vector2::Constant(e.spec_.puck_drag);
+  write(body, blank);
+  e.grid_.remove(body);
+  e.queue_.set(body, infinity, body, body);
+  is_there_[body] = 0;
+}
+
+const std::vector<Hold>& Portion::holds() const { return engine().holds_; }
+
+void Portion::set_holds(std::vector<Hold> holds) {
+  std::stable_sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.age < b.age; });
+  engine().holds_ = std::move(holds);
+}
+
+std::vector<std::uint32_t> Portion::group_of(std::uint32_t body) const {
+  const Engine& e = engine();
+  if ((e.bodies_[body].flags & (Engine::held | Engine::frozen)) == 0) return {body};
+  std::vector<std::uint32_t> group = e.companions(body, Engine::held);
+  if ((e.bodies_[body].flags & Engine::frozen) != 0)
+    for (const std::uint32_t other : e.frozen_)
+      if (other != body && e.jams_[other] == e.jams_[body]) group.push_back(other);
+  return group;
+}
+
+void Portion::begin_window() {
+  const Engine& e = engine();
+  journal_.changes.clear(), journal_.motions.clear(), journal_.flights.clear(), journal_.states.clear(), journal_.looked_at.clear();
+  journal_.mark += 2;
+  journal_.event = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.was_hopeless = false;
+  holds_before_ = e.holds_, frozen_before_ = e.frozen_;
+  clock_before_ = {e.now_, e.instant_begin_, e.events_at_once_, e.jam_count_, e.is_hopeless_};
+  counters_before_ = e.counters_;
+}
+
+void Portion::undo() {
+  Engine& e = engine();
+  for (const Journal::KeptState& kept : journal_.states) {
+    BodyState state = kept.state;
+    state.flight = e.bodies_[kept.body];
+    write(kept.body, state);
+  }
+  for (const Journal::KeptFlight& kept : journal_.flights) static_cast<Flight<double>&>(e.bodies_[kept.body]) = kept.flight;
+  e.holds_ = holds_before_, e.frozen_ = frozen_before_;
+  e.now_ = clock_before_.now, e.instant_begin_ = clock_before_.instant_begin, e.events_at_once_ = clock_before_.events_at_once;
+  e.jam_count_ = clock_before_.jam_count, e.is_hopeless_ = clock_before_.is_hopeless;
+  e.counters_ = counters_before_;
+  for (const std::uint32_t body : e.pending_) e.bodies_[body].flags = static_cast<std::uint8_t>(e.bodies_[body].flags & ~Engine::pending);
+  e.pending_.clear(), e.touched_.clear();
+  e.goal_.reset();
+  e.queue_ = Engine::EventQueue(e.spec_.queue);
+  e.looked_ahead_ = {};
+  e.curved_count_ = 0;
+  e.rebuild_from_state();
+  begin_window();
+}
+
+void Portion::advance(double until) {
+  while (world_.advance(until)) {
+  }
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,80 @@
+// A world in which only some of the bodies are there: those of one part of the field, as worlds elsewhere hand them over.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/journal.h"
+#include "game/physics/world.h"
+
+namespace rink::physics {
+
+using Hold = BasicHold<double>;
+
+/// So many events at one instant, wherever in the field, and the engine thinks of means beyond the bodies concerned; below, they alone matter.
+constexpr std::uint64_t events_at_once_local = 64;
+
+/// Bodies have the numbers that they have in the whole: there is a blank slot for each of `body_count`, and bodies are put into theirs and dropped from it. What is there goes on
+/// with the bits that it has in the whole, for as long as nothing that is not there would have touched it. Time goes by windows, each of which can be undone.
+class Portion {
+ public:
+  Portion(const WorldSpec& spec, std::uint32_t body_count);
+  ~Portion();
+  Portion(const Portion&) = delete;
+  Portion& operator=(const Portion&) = delete;
+
+  const World& world() const { return world_; }
+  std::uint32_t body_count() const { return static_cast<std::uint32_t>(is_there_.size()); }
+  bool is_there(std::uint32_t body) const { return is_there_[body] != 0; }
+
+  BodyState state(std::uint32_t body) const { return state_in(world_, body); }
+  /// Of a body of any world.
+  static BodyState state_in(const World& world, std::uint32_t body);
+  /// As it was when the window began.
+  BodyState state_before(std::uint32_t body) const;
+  /// The body's path from then to its first change.
+  Motion motion_before(std::uint32_t body) const;
+
+  /// Whether it was out of play, or removed.
+  bool was_gone(std::uint32_t body) const;
+
+  /// Between windows: puts the body there, or in another state; or takes it away. Holds are set apart.
+  void put(std::uint32_t body, const BodyState& state);
+  void drop(std::uint32_t body);
+  /// All rest contacts; those that are set need no order, and whoever is in one must be there.
+  const std::vector<Hold>& holds() const;
+  const std::vector<Hold>& holds_before() const { return holds_before_; }
+  void set_holds(std::vector<Hold> holds);
+  /// All bodies in rest contact or in one jam with `body`, directly or through others, itself first.
+  std::vector<std::uint32_t> group_of(std::uint32_t body) const;
+
+  /// From here on what happens is in the journal.
+  void begin_window();
+  /// Back to where the window began.
+  void undo();
+  const Journal& journal() const { return journal_; }
+
+  /// As of World: an event of `body`, and time. Goals end no call.
+  void set_thrust(std::uint32_t bat, const Vector2& acceleration) { world_.set_thrust({bat}, acceleration); }
+  void advance(double until);
+
+ private:
+  struct Clock {
+    double now, instant_begin;
+    std::uint64_t events_at_once;
+    std::uint32_t jam_count;
+    bool is_hopeless;
+  };
+  BasicEngine<double>& engine() const { return *world_.engine_; }
+  void write(std::uint32_t body, const BodyState& state);
+
+  World world_;
+  Journal journal_;
+  std::vector<std::uint8_t> is_there_;
+  std::vector<Hold> holds_before_;
+  std::vector<std::uint32_t> frozen_before_;
+  Clock clock_before_{};
+  Counters counters_before_;
+};
+
+}  // namespace rink::physics
