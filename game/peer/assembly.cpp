@@ -1,0 +1,71 @@
+// The protocol of peer.h, everybody after everybody.
+#include "game/peer/assembly.h"
+
+#include <cassert>
+#include <stdexcept>
+
+namespace rink::peer {
+
+Assembly::Assembly(const physics::World& whole, const Division& division, double halo, double window) : owners_(whole.body_count()), window_(window) {
+  assert(whole.now() == 0.0 && window > 0.0);
+  for (PeerNumber number = 0; number < division.peer_count(); ++number) {
+    Peer& peer = peers_.emplace_back(whole.spec(), division, number, whole.body_count(), halo);
+    for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer.consider(body, physics::Portion::state_in(whole, body));
+  }
+}
+
+void Assembly::press(const Key& key) {
+  for (Peer& peer : peers_) peer.press_first(key);
+}
+
+/// What `make(from, to)` makes, from everybody to everybody else, as bytes.
+template <class Make>
+void Assembly::exchange_all(Make&& make) {
+  for (Peer& from : peers_)
+    for (Peer& to : peers_) {
+      if (from.number() == to.number()) continue;
+      auto message = make(from, to.number());
+      decltype(message) heard;
+      if (!read(written(message), heard)) throw std::logic_error("a message that cannot be read back");
+      to.hear(from.number(), std::move(heard));
+    }
+}
+
+void Assembly::advance() {
+  if (!has_begun_)
+    for (Peer& peer : peers_) peer.begin(window_);
+  has_begun_ = true;
+  for (Peer& peer : peers_) peer.play();
+  for (;;) {
+    exchange_all([](Peer& from, PeerNumber to) { return from.claims_for(to); });
+    for (Peer& peer : peers_) peer.judge();
+    if (!accusation().empty()) throw std::logic_error(accusation());
+    exchange_all([](Peer& from, PeerNumber) { return from.verdict(); });
+    Outcome outcome = Outcome::final;
+    for (Peer& peer : peers_) outcome = peer.conclude();
+    if (outcome == Outcome::final) break;
+    exchange_all([](Peer& from, PeerNumber to) { return from.repeats(to) ? from.arrivals_for_repeat(to) : Arrivals{}; });
+    for (Peer& peer : peers_)
+      if (peer.repeats(peer.number())) peer.replay();
+  }
+  ++count_;
+  const double next = window_ * static_cast<double>(count_ + 1);
+  exchange_all([&](Peer& from, PeerNumber to) { return from.arrivals_for(to, next); });
+  for (Peer& peer : peers_) peer.commit(next);
+  note_owners();
+}
+
+void Assembly::note_owners() {
+  std::vector<std::uint8_t> counts(owners_.size(), 0);
+  for (const Peer& peer : peers_)
+    for (const std::uint32_t body : peer.owned()) owners_[body] = peer.number(), ++counts[body];
+  misowned_ = static_cast<std::uint32_t>(std::count_if(counts.begin(), counts.end(), [](std::uint8_t count) { return count != 1; }));
+}
+
+std::string Assembly::accusation() const {
+  for (const Peer& peer : peers_)
+    if (!peer.accusation().empty()) return "at peer " + std::to_string(peer.number()) + ": " + peer.accusation();
+  return {};
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,44 @@
+// All peers of a simulation in one process, in lockstep: for tests, and to see what a division costs before there is a network.
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "game/peer/peer.h"
+
+namespace rink::peer {
+
+/// Messages go as the bytes that a network would carry.
+class Assembly {
+ public:
+  /// Divides `whole`, which is at its start (time 0, nothing has happened); `window` [s] is the length of every window.
+  Assembly(const physics::World& whole, const Division& division, double halo, double window);
+
+  /// Before the first window: when keys change.
+  void press(const Key& key);
+  /// Plays one window, repeated as often as it takes.
+  void advance();
+
+  double now() const { return window_ * static_cast<double>(count_); }
+  std::deque<Peer>& peers() { return peers_; }
+  /// Of the body, by its owner. Looks for it among all peers' own.
+  BodyState state(std::uint32_t body) const { return peers_[owners_[body]].state(body); }
+  /// How many bodies have not exactly one owner.
+  std::uint32_t misowned() const { return misowned_; }
+  /// The first accusation of any peer; empty if there is none.
+  std::string accusation() const;
+
+ private:
+  template <class Make>
+  void exchange_all(Make&& make);
+  void note_owners();
+
+  std::deque<Peer> peers_;
+  std::vector<PeerNumber> owners_;
+  double window_;
+  std::uint64_t count_ = 0;
+  std::uint32_t misowned_ = 0;
+  bool has_begun_ = false;
+};
+
+}  // namespace rink::peer

@@ -1,0 +1,68 @@
+// Messages to bytes and back, through the stream that snapshots of worlds go through.
+#include "game/peer/messages.h"
+
+#include "game/physics/snapshot_stream.h"
+
+namespace rink::peer {
+
+namespace {
+
+constexpr std::size_t checksum_size = 8;
+
+/// Counts bytes.
+class Measure : public physics::SnapshotStream<Measure> {
+ public:
+  bool word(std::uint64_t&, int byte_count) { return byte_count_ += static_cast<std::size_t>(byte_count), true; }
+  static std::uint64_t count_max() { return 0xffffffff; }
+  std::size_t byte_count() const { return byte_count_; }
+
+ private:
+  std::size_t byte_count_ = 0;
+};
+
+template <class Message>
+std::vector<std::uint8_t> bytes_from(Message& message) {
+  physics::SnapshotWriter writer;
+  exchange(writer, message);
+  return writer.finish();
+}
+
+template <class Message>
+bool read_whole(std::span<const std::uint8_t> bytes, Message& message) {
+  physics::SnapshotReader reader(bytes);
+  return reader.is_intact() && exchange(reader, message) && reader.is_at_end();
+}
+
+template <class Item>
+std::size_t size_of() {
+  Measure measure;
+  Item item;
+  exchange(measure, item);
+  return measure.byte_count();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(Claims message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }
+
+std::size_t measured(const Arrivals& m) {
+  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), hold = size_of<Hold>(), key = size_of<Key>();
+  return empty + m.bodies.size() * body + m.holds.size() * hold + m.keys.size() * key + checksum_size;
+}
+std::size_t measured(const Claims& m) {
+  static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>();
+  return empty + m.bodies.size() * body + m.flights.size() * flight + checksum_size;
+}
+std::size_t measured(const Verdict&) {
+  static const std::size_t size = size_of<Verdict>();
+  return size + checksum_size;
+}
+
+std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }
+
+}  // namespace rink::peer

@@ -1,0 +1,152 @@
+// What peers tell each other, as plain values; each has one function that writes, reads and measures it.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "game/peer/box.h"
+#include "game/physics/portion.h"
+
+namespace rink::peer {
+
+using physics::BodyState;
+using physics::Hold;
+
+/// From `time` [s] on, `bat` is driven by `thrust` [m/s^2].
+struct Key {
+  double time = 0.0;
+  std::uint32_t bat = 0;
+  Vector2 thrust{0.0, 0.0};
+};
+
+/// At a window's start: bodies of the sender that the receiver does not know in this state and shall simulate or own, all rest contacts of those of the sender's bodies that the
+/// receiver now has, and the keys that fall into the window.
+struct Arrivals {
+  struct Body {
+    std::uint32_t number = 0;
+    BodyState state;
+  };
+  std::uint32_t window = 0;
+  std::vector<Body> bodies;
+  std::vector<Hold> holds;
+  std::vector<Key> keys;
+};
+
+/// A stretch of a body's path that ends at the next one, or with the window.
+struct ClaimedFlight {
+  double begin = 0.0;           ///< s
+  std::uint64_t state = 0;      ///< a digest of the state that it begins with, and of all who took part in the event that brought it about
+  float low_x = 0.0f, low_y = 0.0f, high_x = 0.0f, high_y = 0.0f;  ///< what the body sweeps [m], rounded outwards
+  Box box() const { return {low_x, low_y, high_x, high_y}; }
+};
+
+/// After a window has been played: what happened, in the sender's run, to those of its bodies that the receiver has as ghosts, one flight for each event; and the whole paths,
+/// from the window's start, of others that come into the receiver's halo. Nothing is said about ghosts to which nothing happened.
+struct Claims {
+  struct Body {
+    std::uint32_t number = 0;
+    std::uint32_t flight_count = 0;  ///< of the next ones in `flights`
+    bool is_known = false;           ///< to the receiver, since the window's start
+  };
+  std::uint32_t window = 0;
+  std::uint32_t known_count = 0;     ///< of the sender's bodies that the receiver has as ghosts: both count the same
+  std::vector<Body> bodies;
+  std::vector<ClaimedFlight> flights;
+};
+
+/// Whether the sender's run of the window can stand, by all claims that it has heard.
+struct Verdict {
+  std::uint32_t window = 0;
+  bool accepts = false;
+  double halo = 0.0;                ///< m: of the next window, or, if it does not accept, with which it will repeat this one
+  std::uint64_t at_once_max = 0;    ///< the most events at one instant
+  bool was_hopeless = false;        ///< simultaneous impacts that have no solution
+};
+
+template <class Stream>
+bool exchange(Stream& stream, BodyState& s) {
+  auto& [flight, mass, inverse_mass, half_extent, thrust, acceleration, drag, impacts_begin, last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing, spin, jam, kind,
+         material, half, flags, mouth] = s;
+  return stream.numbers(flight.x, flight.y, flight.vx, flight.vy, flight.time, flight.radius, mass, inverse_mass, half_extent.x(), half_extent.y(), thrust.x(), thrust.y(),
+                        acceleration.x(), acceleration.y(), drag.x(), drag.y(), impacts_begin, last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing.x(), slowing.y(),
+                        spin, jam) &&
+         stream.choice(kind, physics::BodyKind::post) && stream.number(material) && stream.choice(half, physics::Half::both) && stream.numbers(flags, mouth);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Hold& hold) {
+  auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
+  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower, age.higher, age.rank) && (axis == 0 || axis == 1);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Key& key) {
+  return stream.numbers(key.time, key.bat, key.thrust.x(), key.thrust.y());
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Arrivals::Body& body) {
+  return stream.number(body.number) && exchange(stream, body.state);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Claims::Body& body) {
+  return stream.numbers(body.number, body.flight_count) && stream.truth(body.is_known);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, ClaimedFlight& flight) {
+  const auto single = [&](float& value) {
+    auto bits = std::bit_cast<std::uint32_t>(value);
+    if (!stream.number(bits)) return false;
+    value = std::bit_cast<float>(bits);
+    return true;
+  };
+  return stream.numbers(flight.begin, flight.state) && single(flight.low_x) && single(flight.low_y) && single(flight.high_x) && single(flight.high_y);
+}
+
+template <class Stream, class Item>
+bool exchange_list(Stream& stream, std::vector<Item>& list) {
+  if (!stream.size(list)) return false;
+  for (Item& item : list)
+    if (!exchange(stream, item)) return false;
+  return true;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Arrivals& message) {
+  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.holds) && exchange_list(stream, message.keys);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Claims& message) {
+  if (!stream.numbers(message.window, message.known_count) || !exchange_list(stream, message.bodies) || !exchange_list(stream, message.flights)) return false;
+  std::size_t count = 0;
+  for (const Claims::Body& body : message.bodies) count += body.flight_count;
+  return count == message.flights.size();
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Verdict& message) {
+  return stream.number(message.window) && stream.truth(message.accepts) && stream.numbers(message.halo, message.at_once_max) && stream.truth(message.was_hopeless);
+}
+
+/// With a checksum at the end.
+std::vector<std::uint8_t> written(Arrivals message);
+std::vector<std::uint8_t> written(Claims message);
+std::vector<std::uint8_t> written(Verdict message);
+/// False, with the message in no particular state, unless the bytes are one whole message.
+bool read(std::span<const std::uint8_t> bytes, Arrivals& message);
+bool read(std::span<const std::uint8_t> bytes, Claims& message);
+bool read(std::span<const std::uint8_t> bytes, Verdict& message);
+
+/// How many bytes written() would make.
+std::size_t measured(const Arrivals& message);
+std::size_t measured(const Claims& message);
+std::size_t measured(const Verdict& message);
+/// The state as the bytes by which states are compared.
+std::vector<std::uint8_t> bytes_of(BodyState state);
+
+}  // namespace rink::peer

@@ -1,0 +1,329 @@
+// Who owns what, and what goes from hand to hand between two windows.
+#include "game/peer/peer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace rink::peer {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A margin is that much wider than it need be, lest it be chosen anew with every halo.
+constexpr double margin_room = 1.25;
+
+bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t body) { return std::binary_search(sorted.begin(), sorted.end(), body); }
+
+bool is_before(const Key& a, const Key& b) { return std::tuple(a.time, a.bat) < std::tuple(b.time, b.bat); }
+
+}  // namespace
+
+PeerCounters& PeerCounters::operator+=(const PeerCounters& other) {
+  windows += other.windows, repeats += other.repeats, own_events += other.own_events, ghost_events += other.ghost_events, hand_overs += other.hand_overs;
+  ghost_windows += other.ghost_windows, border_windows += other.border_windows;
+  arrival_bytes += other.arrival_bytes, claim_bytes += other.claim_bytes, verdict_bytes += other.verdict_bytes;
+  return *this;
+}
+
+Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number, std::uint32_t body_count, double halo)
+    : portion_(spec, body_count),
+      division_(division),
+      number_(number),
+      halo_max_(spec.field.length + spec.field.width),
+      usual_halo_(halo),
+      halo_min_(0.25 * halo),
+      halos_(division.peer_count(), halo),
+      is_repeating_(division.peer_count(), false),
+      roles_(body_count, away),
+      homes_(body_count, 0),
+      end_homes_(body_count, 0),
+      is_edge_(body_count, 0),
+      owners_(body_count, 0),
+      known_(division.peer_count()),
+      claims_(division.peer_count()),
+      verdicts_(division.peer_count()),
+      arrivals_(division.peer_count()) {
+  assert(number < division.peer_count() && halo > 0.0 && division.zones_of(number).size() < 255);
+}
+
+void Peer::consider(std::uint32_t body, const BodyState& state) {
+  const Vector2 place(state.flight.x, state.flight.y);
+  extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
+  const PeerNumber owner = division_.owner_of(place);
+  if (owner != number_ && !is_in_region(number_, Box::around(place, state.extent()))) return;
+  portion_.put(body, state);
+  (owner == number_ ? owned_ : ghosts_).push_back(body);
+}
+
+void Peer::begin(double until) {
+  portion_.begin_window();
+  std::vector<std::uint32_t> candidates = std::move(owned_);
+  candidates.insert(candidates.end(), ghosts_.begin(), ghosts_.end());
+  owned_.clear();
+  settle(std::move(candidates));
+  share_keys(until);
+}
+
+void Peer::press(const Key& key) {
+  assert(roles_[key.bat] == own && key.time >= end_);
+  keys_.push_back(key);
+}
+
+Vector2 Peer::start_place(std::uint32_t body) const {
+  if (portion_.was_gone(body)) return portion_.motion_before(body).position;
+  return portion_.motion_before(body).at(start_).position;
+}
+
+Box Peer::reach_of(std::uint32_t body) const {
+  const auto place = [&](std::uint32_t b) { return Box::around(portion_.world().position({b}), extent_of(b)); };
+  Box box = place(body);
+  if (portion_.world().is_held({body}))
+    for (const std::uint32_t companion : portion_.group_of(body)) box = box.with(place(companion));
+  return box;
+}
+
+Box Peer::start_reach(std::uint32_t body) const {
+  for (const Reach& group : groups_)
+    if (group.body == body) return group.box;
+  return Box::around(start_place(body), extent_of(body));
+}
+
+std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
+  const Box point = Box::around(place, {0.0, 0.0});
+  if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
+  for (std::size_t k = 0; k < interiors_.size(); ++k)
+    if (interiors_[k].holds(point)) return static_cast<std::uint8_t>(k + 1);
+  return 0;
+}
+
+bool Peer::is_margin_fit() const {
+  double halo = 0.0;
+  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
+    if (peer != number_) halo = std::max(halo, halos_[peer]);
+  const double needed = halo + 1.001 * extent_max_;
+  return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
+}
+
+/// And who was at home when the window began.
+void Peer::choose_margin() {
+  double halo = 0.0;
+  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
+    if (peer != number_) halo = std::max(halo, halos_[peer]);
+  margin_ = margin_room * (halo + 1.001 * extent_max_);
+  interiors_.clear();
+  for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
+  for (const std::uint32_t body : owned_) homes_[body] = home_of(start_place(body), 0);
+  for (const Reach& group : groups_) homes_[group.body] = 0;
+}
+
+bool Peer::knows(PeerNumber peer, std::uint32_t body) const { return contains(known_[peer], body); }
+
+void Peer::play() {
+  play_keys(end_);
+  survey();
+}
+
+void Peer::play_keys(double until) {
+  for (const Key& key : due_) {
+    portion_.advance(std::max(key.time, portion_.world().now()));
+    portion_.set_thrust(key.bat, key.thrust);
+  }
+  portion_.advance(until);
+}
+
+/// The same decision everywhere, for all have heard the same.
+Outcome Peer::conclude() {
+  const auto is_whole = [](double halo) { return halo == infinity; };
+  std::uint64_t at_once = 0;
+  bool is_hopeless = false, is_final = true;
+  for (const Verdict& verdict : verdicts_) at_once += verdict.at_once_max, is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+  // The engine's last resorts against endless series at one instant count what happens in the whole field.
+  const bool needs_whole = (at_once >= physics::events_at_once_local || is_hopeless) && !std::all_of(halos_.begin(), halos_.end(), is_whole);
+  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
+    is_repeating_[peer] = needs_whole || !verdicts_[peer].accepts;
+    if (needs_whole) halos_[peer] = infinity;
+    else if (is_final || is_repeating_[peer]) halos_[peer] = verdicts_[peer].halo;
+  }
+  if (is_final && !needs_whole) return Outcome::final;
+  counters_.repeats += is_repeating_[number_];
+  ++attempts_;
+  if (!is_margin_fit()) choose_margin();
+  if (!is_repeating_[number_]) survey();
+  return Outcome::repeat;
+}
+
+Arrivals Peer::arrivals_for_repeat(PeerNumber peer) {
+  Arrivals message;
+  message.window = window_;
+  std::vector<std::uint32_t> sent;
+  for (const std::uint32_t body : owned_) {
+    if (knows(peer, body) || !is_in_region(peer, start_reach(body))) continue;
+    message.bodies.push_back({body, portion_.state_before(body)});
+    sent.push_back(body);
+  }
+  std::sort(sent.begin(), sent.end());
+  for (const Hold& hold : portion_.holds_before())
+    if (contains(sent, hold.low) || contains(sent, hold.high)) message.holds.push_back(hold);
+  for (const Key& key : due_)
+    if (contains(sent, key.bat)) message.keys.push_back(key);
+  std::vector<std::uint32_t>& known = known_[peer];
+  known.insert(known.end(), sent.begin(), sent.end());
+  std::sort(known.begin(), known.end());
+  counters_.arrival_bytes += measured(message);
+  return message;
+}
+
+Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
+  Arrivals message;
+  message.window = window_;
+  std::vector<std::uint32_t> there;
+  for (const Reach& reach : outskirts_) {
+    if (!is_in_region(peer, reach.box)) continue;
+    there.push_back(reach.body);
+    if (!steps_of(reach.body).empty() || !knows(peer, reach.body)) message.bodies.push_back({reach.body, portion_.state(reach.body)});
+  }
+  std::sort(there.begin(), there.end());
+  for (const Hold& hold : portion_.holds())
+    if (contains(there, hold.low) || contains(there, hold.high)) message.holds.push_back(hold);
+  for (const Key& key : keys_)
+    if (contains(there, key.bat) && (key.time <= until || division_.owner_of(portion_.world().position({key.bat})) == peer)) message.keys.push_back(key);
+  counters_.arrival_bytes += measured(message);
+  return message;
+}
+
+void Peer::enter_bodies(const Arrivals& arrivals, PeerNumber from) {
+  for (const auto& [body, state] : arrivals.bodies) {
+    if (body >= portion_.body_count() || roles_[body] == own || (roles_[body] == ghost && owners_[body] != from)) {
+      accuse(from, "hands over body " + std::to_string(body) + ", which it does not own");
+      continue;
+    }
+    extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
+    if (!portion_.is_there(body) || bytes_of(portion_.state(body)) != bytes_of(state)) portion_.put(body, state);
+  }
+}
+
+/// Each once, and only between bodies that are there.
+void Peer::set_holds(std::vector<Hold> holds) {
+  const auto is_there = [&](physics::Partner p) { return p >= physics::partner::field_parts || portion_.is_there(p); };
+  std::erase_if(holds, [&](const Hold& hold) { return !is_there(hold.low) || !is_there(hold.high); });
+  const auto names = [](const Hold& hold) { return std::tuple(hold.low, hold.high, hold.axis); };
+  std::stable_sort(holds.begin(), holds.end(), [&](const Hold& a, const Hold& b) { return names(a) < names(b); });
+  holds.erase(std::unique(holds.begin(), holds.end(), [&](const Hold& a, const Hold& b) { return names(a) == names(b); }), holds.end());
+  portion_.set_holds(std::move(holds));
+}
+
+void Peer::replay() {
+  portion_.undo();
+  std::vector<Hold> holds = portion_.holds();
+  for (PeerNumber from = 0; from < arrivals_.size(); ++from) {
+    if (from == number_) continue;
+    Arrivals& arrivals = arrivals_[from];
+    enter_bodies(arrivals, from);
+    for (const auto& [body, state] : arrivals.bodies)
+      if (body < roles_.size() && roles_[body] == away) roles_[body] = ghost, owners_[body] = from, ghosts_.push_back(body);
+    holds.insert(holds.end(), arrivals.holds.begin(), arrivals.holds.end());
+    due_.insert(due_.end(), arrivals.keys.begin(), arrivals.keys.end());
+    arrivals = {};
+  }
+  std::sort(ghosts_.begin(), ghosts_.end());
+  std::stable_sort(due_.begin(), due_.end(), is_before);
+  set_holds(std::move(holds));
+  portion_.begin_window();
+  play();
+}
+
+/// Ghosts that went astray: to which nothing happened, they are what they were; all others come anew, or are gone.
+void Peer::correct_doubtful() {
+  for (std::size_t k = 0; k < ghosts_.size(); ++k) {
+    if (doubts_[k] == infinity) continue;
+    if (is_unmoved_[k]) portion_.put(ghosts_[k], portion_.state_before(ghosts_[k]));
+    else portion_.drop(ghosts_[k]);
+  }
+}
+
+void Peer::commit(double until) {
+  correct_doubtful();
+  std::vector<Hold> holds = portion_.holds();
+  const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
+  std::erase_if(holds, [&](const Hold& hold) { return !is_own(hold.low) && !is_own(hold.high); });
+  std::vector<std::uint32_t> candidates = ghosts_;
+  for (const Reach& reach : outskirts_) candidates.push_back(reach.body);
+  for (PeerNumber from = 0; from < arrivals_.size(); ++from) {
+    if (from == number_) continue;
+    enter_bodies(arrivals_[from], from);
+    for (const auto& [body, state] : arrivals_[from].bodies)
+      if (body < roles_.size()) candidates.push_back(body);
+    holds.insert(holds.end(), arrivals_[from].holds.begin(), arrivals_[from].holds.end());
+    keys_.insert(keys_.end(), arrivals_[from].keys.begin(), arrivals_[from].keys.end());
+  }
+  for (Arrivals& arrivals : arrivals_) arrivals = {};
+  set_holds(std::move(holds));
+  portion_.begin_window();
+  ++counters_.windows;
+  counters_.own_events += own_events_, counters_.ghost_events += ghost_events_;
+  ++window_;
+  attempts_ = 0;
+  start_ = portion_.world().now();
+  std::erase_if(owned_, [&](std::uint32_t body) { return end_homes_[body] == 0; });
+  homes_.swap(end_homes_);
+  settle(std::move(candidates));
+  share_keys(until);
+}
+
+/// Who owns whom from now on, whom we have as ghosts, and who has ours. Those in `owned_` are at home.
+void Peer::settle(std::vector<std::uint32_t> candidates) {
+  std::erase_if(candidates, [&](std::uint32_t body) { return !portion_.is_there(body); });
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<Box> reaches;
+  for (const std::uint32_t body : candidates) reaches.push_back(reach_of(body));
+  for (const std::uint32_t body : ghosts_) roles_[body] = away;
+  ghosts_.clear(), groups_.clear();
+  for (std::vector<std::uint32_t>& known : known_) known.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const std::uint32_t body = candidates[k];
+    const bool was_own = roles_[body] == own;
+    owners_[body] = division_.owner_of(portion_.world().position({body}));
+    if (owners_[body] == number_) {
+      roles_[body] = own;
+      owned_.push_back(body);
+      if (portion_.world().is_held({body})) groups_.push_back({body, reaches[k]});
+      homes_[body] = 0;
+      for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
+        if (peer != number_ && is_in_region(peer, reaches[k])) known_[peer].push_back(body);
+      continue;
+    }
+    counters_.hand_overs += was_own;
+    roles_[body] = is_in_region(number_, reaches[k]) ? ghost : away;
+    if (roles_[body] == ghost) ghosts_.push_back(body);
+    else portion_.drop(body);
+  }
+  std::vector<Hold> holds = portion_.holds();
+  if (!holds.empty()) set_holds(std::move(holds));
+  if (!is_margin_fit()) choose_margin();
+  else
+    for (const std::uint32_t body : candidates)
+      if (roles_[body] == own && !portion_.world().is_held({body})) homes_[body] = home_of(portion_.world().position({body}), 0);
+  counters_.ghost_windows += ghosts_.size();
+  for (const std::vector<std::uint32_t>& known : known_) counters_.border_windows += known.size();
+}
+
+/// The keys of the window that ends at `until`, and those that stay with us till later.
+void Peer::share_keys(double until) {
+  end_ = until;
+  due_.clear();
+  std::vector<Key> later;
+  for (const Key& key : keys_) {
+    if (key.bat >= roles_.size() || roles_[key.bat] == away) continue;
+    if (key.time <= until) due_.push_back(key);
+    else if (roles_[key.bat] == own) later.push_back(key);
+  }
+  std::stable_sort(due_.begin(), due_.end(), is_before);
+  keys_ = std::move(later);
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,165 @@
+// One of the peers that share a simulation: it owns the bodies in its zones, plays them window by window among ghosts of their neighbours, and proves each window right.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/peer/division.h"
+#include "game/peer/messages.h"
+#include "game/physics/portion.h"
+
+namespace rink::peer {
+
+/// What a peer had, did and said since it was made.
+struct PeerCounters {
+  std::uint64_t windows = 0, repeats = 0;          ///< final ones; and how often one was played again
+  std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: with a body of its own among those concerned, and without
+  std::uint64_t hand_overs = 0;                    ///< bodies that left for another owner
+  std::uint64_t ghost_windows = 0;                 ///< ghosts held, summed over the windows
+  std::uint64_t border_windows = 0;                ///< own bodies that another peer has as ghosts, likewise, each counted once per such peer
+  std::uint64_t arrival_bytes = 0, claim_bytes = 0, verdict_bytes = 0;  ///< sent
+
+  PeerCounters& operator+=(const PeerCounters& other);
+};
+
+enum class Outcome : std::uint8_t { final, repeat };
+
+/// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then each makes claims for each other and hears those of all others, judges, and hears all
+/// verdicts; `conclude` then says the same to all. `final`: each makes arrivals for each other, hears theirs, and commits. `repeat`: each makes arrivals for those who repeat,
+/// these hear them and call `replay`, and all go on with claims. Knows no network and no clock.
+class Peer {
+ public:
+  /// `halo` [m] is where it begins.
+  Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber number, std::uint32_t body_count, double halo);
+
+  /// At the start, before the first window, for every body of the whole: takes what is its own and what is in its halo.
+  void consider(std::uint32_t body, const BodyState& state);
+  /// After that; the first window will end at `until` [s].
+  void begin(double until);
+
+  /// Of a bat that it owns, stamped no earlier than the window that is being played, or was played last, ends.
+  void press(const Key& key);
+  /// Of a bat that it owns, before the first window.
+  void press_first(const Key& key) { keys_.push_back(key); }
+
+  void play();
+  Claims claims_for(PeerNumber peer);
+  void hear(PeerNumber from, Claims claims) { claims_[from] = std::move(claims); }
+  const Verdict& judge();
+  void hear(PeerNumber from, const Verdict& verdict) { verdicts_[from] = verdict; }
+  Outcome conclude();
+  const Verdict& verdict() const { return verdicts_[number_]; }
+  bool repeats(PeerNumber peer) const { return is_repeating_[peer]; }
+
+  Arrivals arrivals_for_repeat(PeerNumber peer);
+  /// `until` [s]: the end of the next window.
+  Arrivals arrivals_for(PeerNumber peer, double until);
+  void hear(PeerNumber from, Arrivals arrivals) { arrivals_[from] = std::move(arrivals); }
+  void replay();
+  void commit(double until);
+
+  PeerNumber number() const { return number_; }
+  double now() const { return portion_.world().now(); }
+  const std::vector<std::uint32_t>& owned() const { return owned_; }
+  const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
+  BodyState state(std::uint32_t body) const { return portion_.state(body); }
+  const physics::World& world() const { return portion_.world(); }
+  double halo() const { return halos_[number_]; }
+  const PeerCounters& counters() const { return counters_; }
+  /// Why another peer's message cannot be true, naming it; empty if all could.
+  const std::string& accusation() const { return accusation_; }
+
+ private:
+  enum Role : std::uint8_t { away, ghost, own };
+  /// What a body went through in the `change`th change of the journal; `state` as in ClaimedFlight.
+  struct Step {
+    std::uint32_t body, change;
+    std::uint64_t state;
+  };
+  struct PathFlight {
+    double begin, end;
+    std::uint64_t state;
+    Box box;
+  };
+  /// The path of a body: the flights from `begin` to `end`, the first one that with which the window began.
+  struct Path {
+    std::uint32_t body;
+    std::size_t begin, end;
+  };
+  struct Reach {
+    std::uint32_t body;
+    Box box;
+  };
+  struct Events {
+    std::size_t begin, end;  // changes of one event
+  };
+
+  // peer.cpp
+  Vector2 extent_of(std::uint32_t body) const { return portion_.world().half_extent({body}); }
+  Vector2 start_place(std::uint32_t body) const;
+  Box reach_of(std::uint32_t body) const;
+  Box start_reach(std::uint32_t body) const;
+  bool is_in_region(PeerNumber peer, const Box& box) const { return division_.is_near(peer, box, halos_[peer]); }
+  std::uint8_t home_of(const Vector2& place, std::uint8_t likely) const;
+  bool is_margin_fit() const;
+  void choose_margin();
+  void play_keys(double until);
+  bool knows(PeerNumber peer, std::uint32_t body) const;
+  void enter_bodies(const Arrivals& arrivals, PeerNumber from);
+  void set_holds(std::vector<Hold> holds);
+  void correct_doubtful();
+  void settle(std::vector<std::uint32_t> candidates);
+  void share_keys(double until);
+
+  // peer_claims.cpp
+  void survey();
+  void find_edge();
+  void trace();
+  void enter_event(Events event);
+  std::span<const Step> steps_of(std::uint32_t body) const;
+  physics::Motion motion_after(const Step& step) const;
+  void lay_out_paths();
+  double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed, std::vector<PathFlight>& beyond) const;
+  bool may_touch_own(const PathFlight& flight) const;
+  double needed_halo() const;
+  bool hears_truth();
+  bool trusts_ghosts();
+  bool accuse(PeerNumber peer, const std::string& of);
+
+  physics::Portion portion_;
+  Division division_;
+  PeerNumber number_;
+  double halo_max_;
+  std::uint32_t window_ = 0;
+  double start_ = 0.0, end_ = 0.0;  // of the window
+  double usual_halo_, halo_min_, extent_max_ = 0.0;
+  double margin_ = -1.0;            // a place deeper in a zone is at home: no other peer's halo reaches a body there
+  std::vector<Box> interiors_;      // of the own zones
+  std::vector<double> halos_;       // by peer
+  std::vector<bool> is_repeating_;
+  std::vector<std::uint8_t> roles_, homes_, end_homes_, is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or if it has companions
+  std::vector<PeerNumber> owners_;  // of those that are there, in this window
+  std::vector<std::uint32_t> owned_, ghosts_;
+  std::vector<Reach> groups_;       // own bodies with companions: what they all take up at the window's start
+  std::vector<Reach> outskirts_;    // own bodies that are not at home at the window's end: what they and their companions take up then
+  std::vector<std::vector<std::uint32_t>> known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
+  std::vector<Key> keys_, due_;     // still to come, of own bats; in this window
+  std::vector<Step> steps_;         // of ghosts and of own bodies that were not at home all the time; by body
+  std::vector<Events> mixed_;       // events of own bodies and ghosts
+  std::vector<Path> paths_;         // of own bodies that were not at home all the time
+  std::vector<PathFlight> flights_;
+  std::vector<double> doubts_;      // as in ghosts_: when the ghost ceases to be what its owner says; never, as a rule
+  std::vector<bool> is_unmoved_;    // likewise: nothing happened to it, its owner says
+  std::vector<Claims> claims_;
+  std::vector<Verdict> verdicts_;
+  std::vector<Arrivals> arrivals_;
+  std::uint64_t own_events_ = 0, ghost_events_ = 0;
+  std::uint32_t attempts_ = 0;
+  PeerCounters counters_;
+  std::string accusation_;
+};
+
+}  // namespace rink::peer

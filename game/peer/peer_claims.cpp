@@ -1,0 +1,252 @@
+// What happened in a window, what is claimed of it, and whether it can stand: docs/peer-to-peer.md, "The rule".
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "game/peer/peer.h"
+
+namespace rink::peer {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Bodies further apart than this do nothing to each other at an instant [m]: twice the widest gap in the engine's clusters, and all roundings.
+constexpr double touch_margin = 4e-5;
+/// What comes within this time of each other is taken as simultaneous [s]: twice the engine's instant.
+constexpr double time_margin = 2e-9;
+/// Of halos that turn out too narrow, and of all others, bit by bit.
+constexpr double widening = 1.25, narrowing = 1.0 - 2e-4;
+constexpr std::uint32_t attempts_max = 40;
+
+std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
+  digest = (digest ^ word) * 0x9e3779b97f4a7c15ULL;
+  return digest ^ (digest >> 31);
+}
+std::uint64_t mixed(std::uint64_t digest, double number) { return mixed(digest, std::bit_cast<std::uint64_t>(number)); }
+
+float rounded_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) <= x ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+ClaimedFlight claimed(double begin, std::uint64_t state, const Box& box) {
+  return {begin, state, rounded_down(box.low_x), rounded_down(box.low_y), rounded_up(box.high_x), rounded_up(box.high_y)};
+}
+
+}  // namespace
+
+/// All that the rule needs to know of the run.
+void Peer::survey() {
+  find_edge();
+  trace();
+  lay_out_paths();
+}
+
+/// Which of the own bodies were not at home from the window's start to its end; and which are not at its end.
+void Peer::find_edge() {
+  outskirts_.clear();
+  const physics::World& world = portion_.world();
+  for (const std::uint32_t body : owned_) {
+    end_homes_[body] = world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), homes_[body]);
+    is_edge_[body] = homes_[body] == 0 || end_homes_[body] != homes_[body] || world.kind({body}) == physics::BodyKind::bat;
+    if (end_homes_[body] == 0) outskirts_.push_back({body, reach_of(body)});
+  }
+  for (const physics::Change& change : portion_.journal().changes) {
+    if (roles_[change.body] != own || is_edge_[change.body] != 0) continue;
+    // Between two places in a convex interior a straight flight stays there; one that bends need not.
+    const bool is_straight = change.motion == physics::Change::straight;
+    if (!is_straight || !interiors_[homes_[change.body] - 1u].holds({change.x, change.y, change.x, change.y})) is_edge_[change.body] = 1;
+  }
+}
+
+void Peer::trace() {
+  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  steps_.clear(), mixed_.clear();
+  own_events_ = ghost_events_ = 0;
+  for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end) {
+    bool has_own = false, has_ghost = false, has_edge = false;
+    for (end = begin; end < changes.size() && changes[end].event == changes[begin].event; ++end) {
+      const bool is_own = roles_[changes[end].body] == own;
+      has_own = has_own || is_own;
+      has_ghost = has_ghost || !is_own;
+      has_edge = has_edge || (is_own && is_edge_[changes[end].body] != 0);
+    }
+    ++(has_own ? own_events_ : ghost_events_);
+    if (has_ghost || has_edge) enter_event({begin, end});
+    if (has_own && has_ghost) mixed_.push_back({begin, end});
+  }
+  std::sort(steps_.begin(), steps_.end(), [](const Step& a, const Step& b) { return a.body != b.body ? a.body < b.body : a.change < b.change; });
+}
+
+void Peer::enter_event(Events event) {
+  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  std::uint64_t concerned = 0;
+  for (std::size_t k = event.begin; k < event.end; ++k) concerned += mixed(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
+  for (std::size_t k = event.begin; k < event.end; ++k) {
+    const physics::Change& c = changes[k];
+    if (c.is_looked_at || (roles_[c.body] == own && is_edge_[c.body] == 0)) continue;
+    const std::uint64_t state = mixed(mixed(mixed(mixed(mixed(mixed(concerned, c.conditions), c.x), c.y), c.vx), c.vy), c.since);
+    steps_.push_back({c.body, static_cast<std::uint32_t>(k), state});
+  }
+}
+
+std::span<const Peer::Step> Peer::steps_of(std::uint32_t body) const {
+  const auto [begin, end] = std::equal_range(steps_.begin(), steps_.end(), Step{body, 0, 0}, [](const Step& a, const Step& b) { return a.body < b.body; });
+  return {begin, end};
+}
+
+physics::Motion Peer::motion_after(const Step& step) const {
+  const physics::Journal& journal = portion_.journal();
+  const physics::Change& c = journal.changes[step.change];
+  if (c.motion != physics::Change::straight) return journal.motions[c.motion];
+  return {c.since, {c.x, c.y}, {c.vx, c.vy}, {0.0, 0.0}, Vector2::Constant(portion_.world().spec().puck_drag)};
+}
+
+void Peer::lay_out_paths() {
+  paths_.clear(), flights_.clear();
+  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  for (const std::uint32_t body : owned_) {
+    if (is_edge_[body] == 0 || portion_.was_gone(body)) continue;
+    const std::span<const Step> steps = steps_of(body);
+    const Vector2 extent = extent_of(body);
+    const std::size_t first = flights_.size();
+    const auto time_of = [&](std::size_t k) { return k < steps.size() ? changes[steps[k].change].time : end_; };
+    flights_.push_back({start_, time_of(0), 0, swept(portion_.motion_before(body), start_, time_of(0), extent)});
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      const physics::Motion motion = motion_after(steps[k]);
+      const bool is_out = k + 1 == steps.size() && !portion_.world().is_in_play({body});
+      flights_.push_back({time_of(k), time_of(k + 1), steps[k].state, is_out ? Box::around(motion.position, extent) : swept(motion, time_of(k), time_of(k + 1), extent)});
+    }
+    paths_.push_back({body, first, flights_.size()});
+  }
+}
+
+Claims Peer::claims_for(PeerNumber peer) {
+  Claims message;
+  message.window = window_;
+  message.known_count = static_cast<std::uint32_t>(known_[peer].size());
+  for (const Path& path : paths_) {
+    const bool is_known = knows(peer, path.body);
+    const auto comes_near = [&](const PathFlight& flight) { return is_in_region(peer, flight.box); };
+    const std::size_t begin = is_known ? path.begin + 1 : path.begin;
+    if (is_known ? begin == path.end : std::none_of(&flights_[path.begin], &flights_[path.begin] + (path.end - path.begin), comes_near)) continue;
+    message.bodies.push_back({path.body, static_cast<std::uint32_t>(path.end - begin), is_known});
+    for (std::size_t k = begin; k < path.end; ++k) message.flights.push_back(claimed(flights_[k].begin, flights_[k].state, flights_[k].box));
+  }
+  counters_.claim_bytes += measured(message);
+  return message;
+}
+
+bool Peer::accuse(PeerNumber peer, const std::string& of) {
+  if (accusation_.empty()) accusation_ = "peer " + std::to_string(peer) + " " + of;
+  return false;
+}
+
+/// Whether claims speak of the bodies that they should.
+bool Peer::hears_truth() {
+  std::vector<std::uint32_t> counts(claims_.size(), 0);
+  for (const std::uint32_t body : ghosts_) ++counts[owners_[body]];
+  for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
+    if (peer == number_) continue;
+    if (claims_[peer].window != window_) return accuse(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " + std::to_string(window_));
+    if (claims_[peer].known_count != counts[peer])
+      return accuse(peer, "counts " + std::to_string(claims_[peer].known_count) + " of its bodies here, there are " + std::to_string(counts[peer]));
+    for (const Claims::Body& body : claims_[peer].bodies) {
+      const bool is_there = body.number < roles_.size() && roles_[body.number] == (body.is_known ? ghost : away) && (!body.is_known || owners_[body.number] == peer);
+      if (!is_there) return accuse(peer, "claims body " + std::to_string(body.number) + ", which it does not own");
+    }
+  }
+  return true;
+}
+
+const Verdict& Peer::judge() {
+  Verdict& verdict = verdicts_[number_];
+  const double halo = halos_[number_], needed = needed_halo();
+  const bool is_trusted = hears_truth() && trusts_ghosts();
+  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless};
+  if (verdict.accepts) {
+    if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
+    verdict.halo = usual_halo_;
+  } else {
+    verdict.halo = std::max(widening * halo, 1.05 * needed);
+    if (verdict.halo > halo_max_ || attempts_ >= attempts_max) verdict.halo = infinity;
+    else usual_halo_ = verdict.halo;
+  }
+  counters_.verdict_bytes += measured(verdict);
+  return verdict;
+}
+
+/// The halo that holds all own paths, so that nobody who is not known, and stays out of the halo, can touch them.
+double Peer::needed_halo() const {
+  double most = 0.0;
+  for (const PathFlight& flight : flights_) {
+    const Box box = flight.box.grown(touch_margin);
+    double least = infinity;
+    for (const Box& zone : division_.zones_of(number_))
+      least = std::min(least, std::max({zone.low_x - box.low_x, zone.low_y - box.low_y, box.high_x - zone.high_x, box.high_y - zone.high_y}));
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+/// When the ghost's own story here departs from what its owner claims; never, as a rule. And its claimed path from then on.
+double Peer::first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> flights, std::vector<PathFlight>& beyond) const {
+  const std::vector<physics::Change>& changes = portion_.journal().changes;
+  const std::span<const Step> steps = steps_of(ghost);
+  std::size_t k = 0;
+  while (k < steps.size() && k < flights.size() && steps[k].state == flights[k].state && changes[steps[k].change].time == flights[k].begin) ++k;
+  if (k == steps.size() && k == flights.size()) return infinity;
+  const double here = k < steps.size() ? changes[steps[k].change].time : infinity, there = k < flights.size() ? flights[k].begin : infinity;
+  const double parting = std::min(here, there) - time_margin, flight_end = std::min(there, end_);
+  const physics::Motion motion = k == 0 ? portion_.motion_before(ghost) : motion_after(steps[k - 1]);
+  if (parting < flight_end && !portion_.was_gone(ghost)) beyond.push_back({parting, flight_end, 0, swept(motion, std::max(parting, start_), flight_end, extent_of(ghost))});
+  for (; k < flights.size(); ++k) beyond.push_back({flights[k].begin - time_margin, k + 1 < flights.size() ? flights[k + 1].begin : end_, 0, flights[k].box()});
+  return parting;
+}
+
+bool Peer::may_touch_own(const PathFlight& foreign) const {
+  const Box box = foreign.box.grown(touch_margin);
+  const Box centres = box.grown(extent_max_);
+  if (std::any_of(interiors_.begin(), interiors_.end(), [&](const Box& interior) { return interior.meets(centres); })) return true;
+  return std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
+    return flight.begin - time_margin <= foreign.end && foreign.begin <= flight.end + time_margin && flight.box.meets(box);
+  });
+}
+
+/// Parts (a) and (b) of the rule.
+bool Peer::trusts_ghosts() {
+  doubts_.assign(ghosts_.size(), infinity);
+  is_unmoved_.assign(ghosts_.size(), true);
+  std::vector<PathFlight> beyond;
+  std::vector<std::span<const ClaimedFlight>> claimed_of(ghosts_.size());
+  const auto place_of = [&](std::uint32_t body) { return static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) - ghosts_.begin()); };
+  for (const Claims& claims : claims_) {
+    std::size_t first = 0;
+    for (const Claims::Body& body : claims.bodies) {
+      const std::span<const ClaimedFlight> flights = std::span(claims.flights).subspan(first, body.flight_count);
+      first += body.flight_count;
+      if (body.is_known) {
+        claimed_of[place_of(body.number)] = flights;
+        continue;
+      }
+      for (std::size_t k = 0; k < flights.size(); ++k) beyond.push_back({flights[k].begin - time_margin, k + 1 < flights.size() ? flights[k + 1].begin : end_, 0, flights[k].box()});
+    }
+  }
+  for (std::size_t k = 0; k < ghosts_.size(); ++k) {
+    is_unmoved_[k] = claimed_of[k].empty();
+    doubts_[k] = first_difference(ghosts_[k], claimed_of[k], beyond);
+  }
+  if (std::any_of(beyond.begin(), beyond.end(), [&](const PathFlight& flight) { return may_touch_own(flight); })) return false;
+  return std::none_of(mixed_.begin(), mixed_.end(), [&](const Events& event) {
+    for (std::size_t k = event.begin; k < event.end; ++k) {
+      const physics::Change& change = portion_.journal().changes[k];
+      if (roles_[change.body] == ghost && change.time >= doubts_[place_of(change.body)]) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,98 @@
+// However the field is divided, and among however many: the peers' states are those of one engine, every double of them, at every window.
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <iostream>
+
+#include "game/peer/assembly.h"
+#include "tests/peer/shared_scenes.h"
+
+namespace rink::peer::test {
+namespace {
+
+struct Played {
+  PeerCounters counters;
+  std::uint64_t held_ghosts = 0;           ///< ghosts in rest contact or in a jam, summed over peers and windows
+  physics::Counters truth;
+  std::uint64_t at_once_scenes = 0;        ///< in which 64 events or more came at one instant
+};
+
+/// What `peer` has is its own, or in its halo, or in a group with what is.
+void expect_only_halo(const Peer& peer, const Division& division, const std::string& where) {
+  const physics::World& world = peer.world();
+  for (std::uint32_t body = 0; body < world.body_count(); ++body) {
+    const Box place = Box::around(world.position({body}), world.half_extent({body}));
+    const bool is_near = division.is_near(peer.number(), place, peer.halo()) || world.is_held({body});
+    const bool is_ghost = std::binary_search(peer.ghosts().begin(), peer.ghosts().end(), body);
+    const bool is_own = division.owner_of(world.position({body})) == peer.number();
+    if (!world.is_removed({body})) EXPECT_TRUE(is_own || (is_ghost && is_near)) << where << ", body " << body;
+    else EXPECT_FALSE(is_ghost) << where << ", body " << body;
+  }
+}
+
+/// Plays scene `number` alone and among peers; stops at the first window at which they differ.
+Played expect_same_history(std::uint64_t number, int window_max) {
+  Random random(7 * number + 3);
+  const double length = std::pow(10.0, uniform(random, -3.0, -1.0));
+  const int window_count = window_max - static_cast<int>(below(random, static_cast<std::uint32_t>(window_max) / 2));
+  SharedScene scene = shared_scene(number, length * window_count);
+  const PeerNumber peer_count = 2 + below(random, 15);
+  const Division division = random_division(scene.world.spec().field, random, peer_count);
+  Assembly assembly(scene.world, division, uniform(random, 0.05, 0.5), length);
+  std::stable_sort(scene.keys.begin(), scene.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+  for (const Key& key : scene.keys) assembly.press(key);
+  physics::World& whole = scene.world;
+  const std::uint32_t body_count = whole.body_count();
+  std::size_t next_key = 0;
+  Played played;
+  for (int window = 1; window <= window_count; ++window) {
+    const double until = length * window;
+    for (; next_key < scene.keys.size() && scene.keys[next_key].time <= until; ++next_key) {
+      physics::test::RandomKeys::advance(whole, scene.keys[next_key].time);
+      whole.set_thrust({scene.keys[next_key].bat}, scene.keys[next_key].thrust);
+    }
+    physics::test::RandomKeys::advance(whole, until);
+    assembly.advance();
+    const std::string where = "scene " + std::to_string(number) + ", " + std::to_string(peer_count) + " peers, window " + std::to_string(window) + " of " + std::to_string(window_count);
+    EXPECT_EQ(assembly.misowned(), 0u) << where;
+    for (const Peer& peer : assembly.peers()) {
+      for (const std::uint32_t ghost : peer.ghosts()) played.held_ghosts += peer.world().is_held({ghost});
+      if (window % 8 == 1) expect_only_halo(peer, division, where);
+    }
+    for (std::uint32_t body = 0; body < body_count; ++body) {
+      if (bytes_of(assembly.state(body)) == bytes_of(physics::Portion::state_in(whole, body))) continue;
+      ADD_FAILURE() << where << ", body " << body << " of " << body_count;
+      window = window_count;
+      break;
+    }
+  }
+  played.truth = whole.counters();
+  played.at_once_scenes = played.truth.events_at_once_max >= 64;
+  for (const Peer& peer : assembly.peers()) played.counters += peer.counters();
+  return played;
+}
+
+void expect_same_histories(std::uint64_t first, std::uint64_t last, int window_max) {
+  Played all;
+  for (std::uint64_t number = first; number < last; ++number) {
+    const Played played = expect_same_history(number, window_max);
+    all.counters += played.counters;
+    all.held_ghosts += played.held_ghosts, all.at_once_scenes += played.at_once_scenes;
+    for (const auto counter : physics::counter_of_kind) all.truth.*counter += played.truth.*counter;
+    all.truth.joint_impacts += played.truth.joint_impacts;
+  }
+  const PeerCounters& c = all.counters;
+  std::cout << c.windows << " windows of peers, " << c.repeats << " repeated; " << c.hand_overs << " bodies handed over; " << c.own_events << " own events, " << c.ghost_events
+            << " of ghosts alone; held ghosts in windows: " << all.held_ghosts << "; in truth " << all.truth.events() << " events, " << all.truth.joint_impacts << " joint impacts, "
+            << all.truth.rests << " rests, " << all.truth.hops << " hops, " << all.truth.freezes << " freezes, " << all.truth.goals << " goals; " << all.at_once_scenes
+            << " scenes with 64 events at one instant\n";
+  for (const std::uint64_t count : {c.repeats, c.hand_overs, c.ghost_events, all.held_ghosts, all.truth.joint_impacts, all.truth.rests, all.truth.hops, all.at_once_scenes})
+    EXPECT_GT(count, 0u);
+}
+
+TEST(SharedSimulation, EqualsOneEngineBitForBitOver50Scenes) { expect_same_histories(0, 50, 60); }
+
+TEST(SharedSimulationLong, EqualsOneEngineBitForBitOver1000Scenes) { expect_same_histories(1000, 2000, 3000); }
+
+}  // namespace
+}  // namespace rink::peer::test
