@@ -129,6 +129,7 @@ void Ambassador::clear_outgoing() {
 }
 
 void Ambassador::advance_clock(double now) {
+  now_ = now;
   if (!has_clock_) last_heard_ = last_said_ = now;
   has_clock_ = true;
   if (has_heard_) last_heard_ = now;

@@ -45,7 +45,7 @@ void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& out
   const bool is_open = size_max >= 256;  // less is no use
   if (!federate.way && !is_open) return;
   if (!federate.way) {
-    federate.way = std::make_unique<DatagramWay>();
+    federate.way = std::make_unique<DatagramWay>(batch_.lists());
     has_ways_ = true;
   }
   DatagramWay& way = *federate.way;
@@ -67,7 +67,7 @@ void FederationExecution::Parts::begin_datagrams(Federate& federate, Outlet& out
 
 void FederationExecution::Parts::probe(Federate& federate, Outlet& outlet) {
   std::vector<std::byte> bytes;
-  DatagramHead head{federate.way->ledger.begin(now_), federate.frames};
+  DatagramHead head{federate.way->ledger.note(now_), federate.frames};
   Writer writer(bytes);
   exchange(writer, head);
   const Datagram empty{bytes, {}};
@@ -106,7 +106,7 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index, const Feder
   if (!cut.fits) return false;
   const bool is_whole = interest.is_uniform && !interest.has_fresh && interest.by_class[run.object_class].includes(run.attributes);
   if (is_whole && is_all_in_scope(run, interest.in_scope)) {
-    batch_.add(cut, run.attributes);
+    batch_.add(cut);
     counters_.updates_sent += run.slots.size();
     return true;
   }
@@ -134,6 +134,8 @@ void FederationExecution::Parts::send_datagrams(Federate& federate, Outlet& outl
   counters_.update_bytes_sent += size;
   counters_.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
+  // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
+  if (const auto since = way_->ledger.unanswered_since(); !since || now_ - *since < settings_.patience.heartbeat_s) federate.last_said = now_;
   outlet.send_datagrams(federate.connection, datagrams);
 }
 

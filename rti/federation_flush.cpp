@@ -48,6 +48,12 @@ class UpdatesBlock {
   bool is_open_ = false;
 };
 
+/// Every cache line of it.
+template <class Value>
+void fetch(const Value& value) {
+  for (std::size_t at = 0; at < sizeof value; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(&value) + at);
+}
+
 }  // namespace
 
 void FederationExecution::Parts::flush(Outlet& outlet) {
@@ -55,8 +61,10 @@ void FederationExecution::Parts::flush(Outlet& outlet) {
   runs_ = buffering_->seal();
   baselines_.begin(runs_, federates_.size());
   batch_.begin_tick();
-  for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
+  for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
+    look_ahead(slot);
     if (federates_[slot].is_joined) flush_federate(slot, outlet);
+  }
   baselines_.end();
   runs_ = {};
   buffering_->clear();
@@ -67,6 +75,20 @@ void FederationExecution::Parts::flush(Outlet& outlet) {
     outlet.drop(each.connection, each.why);
   }
   farewells_.clear();
+}
+
+/// What a flush needs of a federate has left the cache since the last one if there are many: what the next ones need is fetched meanwhile, in the order in which one leads to the other.
+void FederationExecution::Parts::look_ahead(std::uint32_t slot) {
+  if (slot + 3 < federates_.size()) fetch(federates_[slot + 3]);
+  if (slot + 2 < federates_.size() && federates_[slot + 2].is_joined) {
+    fetch(interest_.of(slot + 2));
+    if (federates_[slot + 2].way) fetch(*federates_[slot + 2].way);
+  }
+  if (slot + 1 < federates_.size() && federates_[slot + 1].is_joined) {
+    const FederateInterest& interest = interest_.of(slot + 1);
+    __builtin_prefetch(interest.by_class.data());
+    interest.in_scope.prefetch();
+  }
 }
 
 void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outlet) {

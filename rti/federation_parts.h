@@ -165,6 +165,7 @@ class FederationExecution::Parts {
 
   // What goes out (federation_flush.cpp).
   void flush(Outlet& outlet);
+  void look_ahead(std::uint32_t slot);
   void flush_federate(std::uint32_t slot, Outlet& outlet);
   void write_scope_events(std::uint32_t slot);
   void write_fresh_states(std::uint32_t slot);

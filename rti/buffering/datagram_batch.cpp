@@ -29,11 +29,22 @@ void put_record(std::vector<std::byte>& bytes, std::uint32_t& last, std::uint32_
 
 }  // namespace
 
-void CutRun::cut(const UpdateRun& run, std::size_t part_max) {
-  size_max = part_max;
+void CutRun::let_go(SaidLists& lists) {
+  for (const Part& part : parts)
+    if (part.said != SaidLists::none) lists.release(part.said);
   parts.clear();
+}
+
+void CutRun::end_part(SaidLists& lists) {
+  said_.end_group();
+  parts.back().to = bytes.size();
+  parts.back().said = lists.add(said_.groups());
+}
+
+void CutRun::cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists) {
+  let_go(lists);
+  size_max = part_max;
   bytes.clear();
-  handles.clear();
   fits = true;
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < run.records.size(); ++i) {
@@ -45,21 +56,26 @@ void CutRun::cut(const UpdateRun& run, std::size_t part_max) {
     const bool is_full = !parts.empty() && bytes.size() - parts.back().from + step_max + values.size() + 1 > size_max;
     if (is_full) {
       bytes.resize(parts.back().from + size_max);  // zeros: the end of the block, of the messages, and padding
-      parts.back().to = bytes.size();
-      parts.back().last = handles.size();
+      end_part(lists);
     }
     if (is_full || parts.empty()) {
-      parts.push_back({bytes.size(), 0, handles.size(), 0});
+      parts.push_back({bytes.size(), 0, SaidLists::none});
+      said_.clear();
+      said_.begin_group(run.attributes);
       begin_block(bytes, run.object_class, run.attributes, run.stamp);
       last = 0;
     }
     put_record(bytes, last, run.records[i].handle, values);
-    handles.push_back(run.records[i].handle);
+    said_.add(run.records[i].handle);
   }
   if (parts.empty()) return;
   bytes.push_back(std::byte{0});
-  parts.back().to = bytes.size();
-  parts.back().last = handles.size();
+  end_part(lists);
+}
+
+void DatagramBatch::begin_tick() {
+  for (CutRun& each : cuts_) each.let_go(lists_);
+  cut_count_ = 0;
 }
 
 const CutRun& DatagramBatch::cut(std::size_t index, const UpdateRun& run, std::size_t size_max) {
@@ -69,7 +85,7 @@ const CutRun& DatagramBatch::cut(std::size_t index, const UpdateRun& run, std::s
     is_cut_.resize(index + 1);
   }
   if (!is_cut_[index] || cuts_[index].size_max != size_max) {
-    cuts_[index].cut(run, size_max);
+    cuts_[index].cut(run, size_max, lists_);
     is_cut_[index] = true;
     ++cut_count_;
   }
@@ -84,13 +100,30 @@ void DatagramBatch::begin(std::size_t size_max) {
   is_open_ = has_block_ = false;
 }
 
-void DatagramBatch::open() {
-  planned_.push_back({.shared = {}, .from = bytes_.size(), .to = 0, .attributes = {}, .handles = {}, .said_from = said_.size(), .said_to = 0});
+/// Opens a datagram of our own unless one is open that has room for `needed` more bytes.
+void DatagramBatch::make_room(std::size_t needed) {
+  if (is_open_ && bytes_.size() - planned_.back().from + needed > size_max_) close(true);
+  if (is_open_) return;
+  const Planned last = planned_.empty() ? Planned{} : planned_.back();
+  const bool continues = last.is_short && last.shared.size() + needed <= size_max_;
+  if (continues) planned_.pop_back();
+  Planned own;
+  own.from = bytes_.size();
+  own.said_from = said_.groups().size();
+  planned_.push_back(own);
   is_open_ = true;
+  if (continues) copy(last.shared, last.said);
+}
+
+void DatagramBatch::copy(Bytes body, SaidLists::Number said) {
+  end_block();
+  bytes_.insert(bytes_.end(), body.begin(), body.end());
+  said_.append(lists_.groups(said));
 }
 
 void DatagramBatch::end_block() {
   if (has_block_) bytes_.push_back(std::byte{0});
+  said_.end_group();
   has_block_ = false;
 }
 
@@ -100,32 +133,22 @@ void DatagramBatch::close(bool is_full) {
   Planned& own = planned_.back();
   if (is_full) bytes_.resize(own.from + size_max_);
   own.to = bytes_.size();
-  own.said_to = said_.size();
+  own.said_to = said_.groups().size();
   is_open_ = false;
 }
 
-void DatagramBatch::carry(AttributeSet attributes, std::span<const std::uint32_t> handles) {
-  said_.push_back(attributes.bits);
-  said_.push_back(static_cast<std::uint32_t>(handles.size()));
-  said_.insert(said_.end(), handles.begin(), handles.end());
-}
-
-void DatagramBatch::add(const CutRun& cut, AttributeSet attributes) {
+void DatagramBatch::add(const CutRun& cut) {
   for (const CutRun::Part& part : cut.parts) {
     const Bytes body = Bytes(cut.bytes).subspan(part.from, part.to - part.from);
-    const auto handles = std::span(cut.handles).subspan(part.first, part.last - part.first);
-    // A short one shares its datagram with others; a long one is its own, and not copied.
-    const bool is_short = 2 * body.size() < size_max_;
-    if (!is_short) {
-      close(false);
-      planned_.push_back({.shared = body, .from = 0, .to = 0, .attributes = attributes, .handles = handles, .said_from = 0, .said_to = 0});
+    // A short one shares its datagram with others if any follow or came before; a long one is its own. Either way nothing is copied if it stays alone.
+    const bool is_short = 2 * body.size() < size_max_, follows_short = is_open_ || (!planned_.empty() && planned_.back().is_short);
+    if (is_short && follows_short) {
+      make_room(body.size() + 1);
+      copy(body, part.said);
       continue;
     }
-    if (is_open_ && bytes_.size() - planned_.back().from + body.size() + 1 > size_max_) close(true);
-    if (!is_open_) open();
-    end_block();
-    bytes_.insert(bytes_.end(), body.begin(), body.end());
-    carry(attributes, handles);
+    close(false);
+    planned_.push_back({.shared = body, .from = 0, .to = 0, .said = part.said, .is_short = is_short, .said_from = 0, .said_to = 0});
   }
 }
 
@@ -133,22 +156,19 @@ bool DatagramBatch::add(std::uint16_t object_class, AttributeSet attributes, con
   if (block_overhead_max + step_max + values.size() > size_max_) return false;
   const bool continues = has_block_ && block_class_ == object_class && block_attributes_ == attributes && block_stamp_ == stamp;
   const std::size_t needed = step_max + values.size() + 1 + (continues ? 0 : block_overhead_max);
-  if (is_open_ && bytes_.size() - planned_.back().from + needed > size_max_) close(true);
-  if (!is_open_) open();
+  make_room(needed);
   if (!has_block_ || !continues) {
     end_block();
     begin_block(bytes_, object_class, attributes, stamp);
-    carry(attributes, {});
+    said_.begin_group(attributes);
     has_block_ = true;
     block_class_ = object_class;
     block_attributes_ = attributes;
     block_stamp_ = stamp;
     block_last_ = 0;
-    block_count_ = said_.size() - 1;
   }
   put_record(bytes_, block_last_, handle, values);
-  said_.push_back(handle);
-  ++said_[block_count_];
+  said_.add(handle);
   return true;
 }
 
@@ -157,15 +177,18 @@ std::span<const Datagram> DatagramBatch::finish(std::uint32_t frames, DatagramLe
   heads_.clear();
   finished_.clear();
   for (const Planned& each : planned_) {
-    DatagramHead head{ledger.begin(now), frames};
+    const bool is_own = each.said == SaidLists::none;
+    if (!is_own) lists_.hold(each.said);
+    const SaidLists::Number said = is_own ? lists_.add(said_.groups().subspan(each.said_from, each.said_to - each.said_from)) : each.said;
+    DatagramHead head{ledger.note(now, said), frames};
     Writer writer(heads_);
     exchange(writer, head);
-    if (!each.shared.empty()) ledger.carry(each.attributes, each.handles);
-    for (std::size_t i = each.said_from; i < each.said_to; i += 2 + said_[i + 1]) ledger.carry(AttributeSet(said_[i]), std::span(said_).subspan(i + 2, said_[i + 1]));
   }
   for (std::size_t i = 0; i < planned_.size(); ++i) {
     const Planned& each = planned_[i];
-    finished_.push_back({Bytes(heads_).subspan(i * DatagramHead::size, DatagramHead::size), each.shared.empty() ? Bytes(bytes_).subspan(each.from, each.to - each.from) : each.shared});
+    const Bytes head = Bytes(heads_).subspan(i * DatagramHead::size, DatagramHead::size);
+    const bool is_own = each.shared.empty();
+    finished_.push_back({head, is_own ? Bytes(bytes_).subspan(each.from, each.to - each.from) : each.shared, !is_own});
   }
   return finished_;
 }

@@ -14,57 +14,64 @@ namespace rink::rti {
 class CutRun {
  public:
   struct Part {
-    std::size_t from, to;          ///< of `bytes`
-    std::size_t first, last;       ///< of `handles`
+    std::size_t from, to;    ///< of `bytes`
+    SaidLists::Number said;  ///< what it names
   };
   /// `part_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
-  void cut(const UpdateRun& run, std::size_t part_max);
+  void cut(const UpdateRun& run, std::size_t part_max, SaidLists& lists);
+  void let_go(SaidLists& lists);
   bool fits = false;
   std::size_t size_max = 0;
   std::vector<Part> parts;
   std::vector<std::byte> bytes;
-  std::vector<std::uint32_t> handles;
+
+ private:
+  void end_part(SaidLists& lists);
+  SaidList said_;
 };
 
 /// Collects one destination's datagrams. Keeps its memory.
 class DatagramBatch {
  public:
   /// A new flush: runs may have changed.
-  void begin_tick() { cut_count_ = 0; }
+  void begin_tick();
   /// Run number `index` of the tick, cut when it is first asked for, and again for another size.
   const CutRun& cut(std::size_t index, const UpdateRun& run, std::size_t size_max);
 
   /// A new destination, whose datagrams have bodies of at most `size_max` bytes.
   void begin(std::size_t size_max);
   /// The whole run. Its parts are not copied unless they are short; they must stay until the next `begin_tick`.
-  void add(const CutRun& cut, AttributeSet attributes);
+  void add(const CutRun& cut);
   /// One record; false if it does not fit a datagram.
   bool add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp, std::uint32_t handle, Bytes values);
   bool is_empty() const { return planned_.empty() && !is_open_; }
 
   /// Numbers them after `frames` and notes in `ledger` what they carry. Valid until the next `begin`.
   std::span<const Datagram> finish(std::uint32_t frames, DatagramLedger& ledger, double now);
+  /// What ledgers refer to.
+  SaidLists& lists() { return lists_; }
 
  private:
   struct Planned {
-    Bytes shared;                             ///< somebody's bytes, or
-    std::size_t from = 0, to = 0;             ///< own ones
-    AttributeSet attributes;                  ///< of the shared
-    std::span<const std::uint32_t> handles;   ///< of the shared
-    std::size_t said_from = 0, said_to = 0;   ///< of the own
+    Bytes shared{};                      ///< somebody's bytes, or
+    std::size_t from = 0, to = 0;        ///< own ones
+    SaidLists::Number said = SaidLists::none;  ///< of the shared
+    bool is_short = false;                     ///< the shared is, and others may still share its datagram
+    std::size_t said_from = 0, said_to = 0;    ///< of the own
   };
-  void open();
+  void make_room(std::size_t needed);
+  void copy(Bytes body, SaidLists::Number said);
   void close(bool is_full);
   void end_block();
-  void carry(AttributeSet attributes, std::span<const std::uint32_t> handles);
 
+  SaidLists lists_;
   std::vector<CutRun> cuts_;
   std::vector<bool> is_cut_;
   std::size_t cut_count_ = 0;
 
   std::size_t size_max_ = 0;
   std::vector<std::byte> bytes_, heads_;
-  std::vector<std::uint32_t> said_;  ///< for each group: attributes, count, so many handles
+  SaidList said_;
   std::vector<Planned> planned_;
   std::vector<Datagram> finished_;
   bool is_open_ = false, has_block_ = false;
@@ -72,7 +79,6 @@ class DatagramBatch {
   AttributeSet block_attributes_;
   Stamp block_stamp_;
   std::uint32_t block_last_ = 0;
-  std::size_t block_count_ = 0;  ///< where `said_` counts the block's handles
 };
 
 }  // namespace rink::rti

@@ -6,26 +6,26 @@
 
 namespace rink::rti {
 
-std::uint32_t DatagramLedger::begin(double now) {
+DatagramLedger::~DatagramLedger() {
+  while (size_ > 0) drop_oldest();
+}
+
+std::uint32_t DatagramLedger::note(double now, SaidLists::Number said) {
   if (size_ == ring_.size()) {
     std::vector<Entry> larger(std::max<std::size_t>(8, 2 * ring_.size()));
-    for (std::uint32_t number = oldest(); number != next_; ++number) larger[number & (larger.size() - 1)] = std::move(at(number));
+    for (std::uint32_t number = oldest(); number != next_; ++number) larger[number & (larger.size() - 1)] = at(number);
     ring_.swap(larger);
   }
-  Entry& entry = at(next_);
-  entry.sent_s = now;
-  entry.is_settled = false;
-  entry.said.clear();
+  at(next_) = {.sent_s = now, .said = said, .is_settled = false};
   if (!unanswered_since_) unanswered_since_ = now;
-  ++size_;
+  if (size_++ == 0) oldest_sent_s_ = now;
   return next_++;
 }
 
-void DatagramLedger::carry(AttributeSet attributes, std::span<const std::uint32_t> handles) {
-  std::vector<std::uint32_t>& said = at(next_ - 1).said;
-  said.push_back(attributes.bits);
-  said.push_back(static_cast<std::uint32_t>(handles.size()));
-  said.insert(said.end(), handles.begin(), handles.end());
+void DatagramLedger::drop_oldest() {
+  const Entry& entry = at(oldest());
+  if (entry.said != SaidLists::none) lists_->release(entry.said);
+  if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
 }
 
 bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost) {
@@ -47,6 +47,7 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
 
 void DatagramLedger::expire(double now, std::vector<Lost>& lost) {
   const double patience_s = 0.1 + DatagramReceipts::longest_delay_s + 2.0 * smoothed_s_;
+  if (size_ == 0 || now - oldest_sent_s_ <= patience_s) return;
   for (std::uint32_t number = oldest(); number != next_ && now - at(number).sent_s > patience_s; ++number)
     if (!at(number).is_settled) lose(number, lost);
   forget_settled();
@@ -62,23 +63,19 @@ void DatagramLedger::abandon(std::vector<Lost>& lost) {
 void DatagramLedger::lose(std::uint32_t number, std::vector<Lost>& lost) {
   Entry& entry = at(number);
   entry.is_settled = true;
-  if (entry.said.empty()) return;
   // Rare, so it may search: what later datagrams say of the same objects is looked up only when one is lost.
   std::unordered_map<std::uint32_t, std::uint32_t> said_later;
-  const auto for_each = [](const Entry& each, auto visit) {
-    for (std::size_t i = 0; i < each.said.size(); i += 2 + each.said[i + 1])
-      for (std::uint32_t k = 0; k < each.said[i + 1]; ++k) visit(each.said[i + 2 + k], each.said[i]);
-  };
-  for (std::uint32_t later = number + 1; later != next_; ++later) for_each(at(later), [&](std::uint32_t handle, std::uint32_t bits) { said_later[handle] |= bits; });
-  for_each(entry, [&](std::uint32_t handle, std::uint32_t bits) {
+  for (std::uint32_t later = number + 1; later != next_; ++later)
+    for_each_said(groups(at(later)), [&](std::uint32_t handle, AttributeSet set) { said_later[handle] |= set.bits; });
+  for_each_said(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
     const auto found = said_later.find(handle);
-    const std::uint32_t missing = found == said_later.end() ? bits : bits & ~found->second;
+    const std::uint32_t missing = found == said_later.end() ? set.bits : set.bits & ~found->second;
     if (missing != 0) lost.push_back({handle, AttributeSet(missing)});
   });
 }
 
 void DatagramLedger::forget_settled() {
-  while (size_ > 0 && at(oldest()).is_settled) --size_;
+  while (size_ > 0 && at(oldest()).is_settled) drop_oldest();
 }
 
 }  // namespace rink::rti

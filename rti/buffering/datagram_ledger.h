@@ -6,25 +6,29 @@
 #include <span>
 #include <vector>
 
+#include "rti/buffering/said_lists.h"
 #include "rti/fom/attribute_set.h"
 #include "rti/wire/datagram.h"
 
 namespace rink::rti {
 
-/// Of one destination. What a datagram says is kept as handles only: what is sent again is the newest state then, not what was lost. Costs one copy of
-/// the handles per datagram and nothing per object until one is lost.
+/// Of one destination. What a datagram says is kept as handles only: what is sent again is the newest state then, not what was lost. Of what many are sent
+/// alike, there is one list for all, in `lists`, which must outlive it. An entry takes 16 bytes: with 1,000 destinations it is memory that costs, not work.
 class DatagramLedger {
  public:
+  explicit DatagramLedger(SaidLists& lists) : lists_(&lists) {}
+  ~DatagramLedger();
+  DatagramLedger(const DatagramLedger&) = delete;
+  DatagramLedger& operator=(const DatagramLedger&) = delete;
+
   /// An object whose state may not have arrived.
   struct Lost {
     std::uint32_t handle;
     AttributeSet attributes;
   };
 
-  /// Opens the entry of the next datagram and returns its number. `now` [s].
-  std::uint32_t begin(double now);
-  /// Adds to it: the same attributes of so many objects.
-  void carry(AttributeSet attributes, std::span<const std::uint32_t> handles);
+  /// Notes the next datagram and returns its number. `now` [s]; `said` names what it says and is held for us.
+  std::uint32_t note(double now, SaidLists::Number said = SaidLists::none);
 
   /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told, is lost: appended to `lost`, unless a later datagram
   /// says the same attributes of the same object. False if it acknowledges what was never sent.
@@ -41,18 +45,22 @@ class DatagramLedger {
  private:
   struct Entry {
     double sent_s = 0.0;
+    SaidLists::Number said = SaidLists::none;
     bool is_settled = false;
-    std::vector<std::uint32_t> said;  ///< for each group: attributes, count, so many handles
   };
   static constexpr std::uint32_t overtaken_by = 3;
   Entry& at(std::uint32_t number) { return ring_[number & (ring_.size() - 1)]; }
   std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
+  Bytes groups(const Entry& entry) const { return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said); }
+  void drop_oldest();
   void lose(std::uint32_t number, std::vector<Lost>& lost);
   void forget_settled();
 
-  std::vector<Entry> ring_;  ///< a power of two of them; they keep their memory
+  SaidLists* lists_;
+  std::vector<Entry> ring_;  ///< a power of two of them
   std::uint32_t next_ = 1;   ///< number of the next datagram
   std::size_t size_ = 0;     ///< from the oldest unsettled one to the newest
+  double oldest_sent_s_ = 0.0;
   double smoothed_s_ = 0.0;  ///< round trip with the receiver's delay
   std::optional<double> unanswered_since_;
 };

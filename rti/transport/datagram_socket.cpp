@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 
@@ -53,10 +54,12 @@ void prepare_datagram_socket(int socket, bool use_offload) {
 void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix, std::span<const Datagram> datagrams) {
   if (socket != socket_) push();
   socket_ = socket;
+  if (bytes_.capacity() == 0) bytes_.reserve(bytes_max);
   bool is_first = true;
   for (const Datagram& each : datagrams) {
     const std::size_t size = prefix.size() + each.head.size() + each.body.size();
-    if (bytes_.size() + size > bytes_max) {
+    assert(size <= bytes_max);
+    if (bytes_.size() + size > bytes_max || parts_.size() + 3 > part_max) {
       push();
       is_first = true;
     }
@@ -64,27 +67,45 @@ void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix, std:
     const bool continues = use_offload_ && !is_first && !message->is_complete && size <= message->segment && message->count < segment_max && message->size + size <= message_bytes_max;
     if (!continues) {
       if (messages_.size() == message_max) push();
-      messages_.push_back({.from = bytes_.size(), .size = 0, .segment = size, .to = to, .count = 0, .is_complete = false});
+      messages_.push_back({.first_part = parts_.size(), .part_count = 0, .size = 0, .segment = size, .to = to, .count = 0, .is_complete = false});
       message = &messages_.back();
     }
     is_first = false;
-    for (const Bytes part : {prefix, each.head, each.body}) bytes_.insert(bytes_.end(), part.begin(), part.end());
+    append(*message, prefix, false);
+    append(*message, each.head, false);
+    append(*message, each.body, each.does_body_stay);
     message->size += size;
     ++message->count;
     message->is_complete = size < message->segment;
   }
 }
 
+/// Continues the last part if it lies behind it.
+void DatagramSender::append(Message& message, Bytes part, bool does_stay) {
+  if (part.empty()) return;
+  const std::byte* at = part.data();
+  if (!does_stay) {
+    at = bytes_.data() + bytes_.size();
+    bytes_.insert(bytes_.end(), part.begin(), part.end());
+  }
+  if (message.part_count > 0 && static_cast<std::byte*>(parts_.back().iov_base) + parts_.back().iov_len == at) {
+    parts_.back().iov_len += part.size();
+    return;
+  }
+  parts_.push_back({const_cast<std::byte*>(at), part.size()});
+  ++message.part_count;
+}
+
 void DatagramSender::push() {
   for (std::size_t sent = 0; sent < messages_.size();) sent += send_some(sent);
   messages_.clear();
+  parts_.clear();
   bytes_.clear();
 }
 
 /// Returns how many messages are done with, at least one.
 std::size_t DatagramSender::send_some(std::size_t from) {
   std::array<mmsghdr, message_max> headers{};
-  std::array<iovec, message_max> vectors;
   union Control {
     cmsghdr alignment;
     char bytes[CMSG_SPACE(sizeof(std::uint16_t))];
@@ -93,10 +114,9 @@ std::size_t DatagramSender::send_some(std::size_t from) {
   const std::size_t count = messages_.size() - from;
   for (std::size_t i = 0; i < count; ++i) {
     const Message& message = messages_[from + i];
-    vectors[i] = {bytes_.data() + message.from, message.size};
     msghdr& header = headers[i].msg_hdr;
-    header.msg_iov = &vectors[i];
-    header.msg_iovlen = 1;
+    header.msg_iov = &parts_[message.first_part];
+    header.msg_iovlen = message.part_count;
     if (message.to != nullptr) {
       header.msg_name = const_cast<sockaddr*>(message.to->get());
       header.msg_namelen = message.to->size;
@@ -130,11 +150,17 @@ std::size_t DatagramSender::send_some(std::size_t from) {
 }
 
 void DatagramSender::send_apart(const Message& message) {
+  std::vector<std::byte> whole;
+  for (std::size_t i = 0; i < message.part_count; ++i) {
+    const iovec& part = parts_[message.first_part + i];
+    const auto* bytes = static_cast<const std::byte*>(part.iov_base);
+    whole.insert(whole.end(), bytes, bytes + part.iov_len);
+  }
   for (std::size_t at = 0; at < message.size; at += message.segment) {
     const std::size_t size = std::min(message.segment, message.size - at);
     ++calls_;
     const sockaddr* to = message.to == nullptr ? nullptr : message.to->get();
-    if (::sendto(socket_, bytes_.data() + message.from + at, size, MSG_DONTWAIT | MSG_NOSIGNAL, to, to == nullptr ? 0 : message.to->size) < 0) ++lost_;
+    if (::sendto(socket_, whole.data() + at, size, MSG_DONTWAIT | MSG_NOSIGNAL, to, to == nullptr ? 0 : message.to->size) < 0) ++lost_;
   }
 }
 

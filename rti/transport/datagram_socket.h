@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sys/socket.h>
+#include <sys/uio.h>
 
 #include <cstdint>
 #include <functional>
@@ -29,7 +30,7 @@ struct SocketAddress {
 void prepare_datagram_socket(int socket, bool use_offload);
 
 /// Gathers datagrams and sends them by `sendmmsg`; consecutive ones of one size (the last may be shorter) to one address as one message that the kernel cuts (`UDP_SEGMENT`),
-/// unless the kernel has refused that once. What the kernel has no room for is lost.
+/// unless the kernel has refused that once. Bodies that stay are not copied. What the kernel has no room for is lost.
 class DatagramSender {
  public:
   explicit DatagramSender(bool use_offload) : use_offload_(use_offload) {}
@@ -44,18 +45,21 @@ class DatagramSender {
 
  private:
   struct Message {
-    std::size_t from = 0, size = 0, segment = 0;  ///< of `bytes_`; all datagrams but the last have `segment` bytes
+    std::size_t first_part = 0, part_count = 0;   ///< of `parts_`
+    std::size_t size = 0, segment = 0;            ///< all datagrams but the last have `segment` bytes
     const SocketAddress* to = nullptr;
     std::uint32_t count = 0;                      ///< of datagrams
     bool is_complete = false;                     ///< the last is shorter than the others
   };
-  static constexpr std::size_t message_max = 64, segment_max = 60, message_bytes_max = 62'000, bytes_max = 256 * 1024;
+  static constexpr std::size_t message_max = 64, segment_max = 60, part_max = 1024, message_bytes_max = 62'000, bytes_max = 256 * 1024;
+  void append(Message& message, Bytes part, bool does_stay);
   std::size_t send_some(std::size_t from);
   void send_apart(const Message& message);
 
   int socket_ = -1;
   bool use_offload_;
-  std::vector<std::byte> bytes_;
+  std::vector<std::byte> bytes_;  ///< what does not stay; never grows beyond what was reserved
+  std::vector<iovec> parts_;
   std::vector<Message> messages_;
   std::uint64_t calls_ = 0, lost_ = 0;
 };

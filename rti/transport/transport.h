@@ -83,7 +83,8 @@ class Transport {
 
   /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no way for datagrams, when none may be sent.
   virtual std::size_t datagram_max(ConnectionId /*connection*/) const { return 0; }
-  /// Sends each as one datagram, or loses it; never queues it for long, never closes the connection. The bytes are valid during the call.
+  /// Sends each as one datagram, or loses it; never queues it for long, never closes the connection. The bytes are valid during the call,
+  /// bodies that say so until the next `push`.
   virtual void send_datagrams(ConnectionId /*connection*/, std::span<const Datagram> /*datagrams*/) {}
   /// Gives datagrams that were gathered, so that many go in one system call, to the operating system.
   virtual void push() {}

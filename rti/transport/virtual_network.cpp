@@ -217,7 +217,7 @@ std::size_t VirtualEndpoint::datagram_max(ConnectionId connection) const {
 void VirtualEndpoint::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
   if (datagram_max(connection) == 0 || lines_[connection].peer == nullptr) return;
   Line& line = lines_[connection];
-  for (const auto& [head, body] : datagrams) {
+  for (const auto& [head, body, does_body_stay] : datagrams) {
     const std::size_t size = head.size() + body.size();
     assert(size <= virtual_datagram_max);
     for (TransportCounters* counters : {&line.counters, &totals_}) {

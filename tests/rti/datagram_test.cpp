@@ -191,6 +191,7 @@ class Sea {
   const FederationCounters& counters() const { return execution_.counters(); }
   FederationExecution& execution() { return execution_; }
   StormyEndpoint& far() { return far_; }
+  StormyEndpoint& clients() { return clients_; }
 
   double now = 0.0;
   Weather weather;
@@ -243,6 +244,23 @@ TEST(Datagrams, CostNothingWhereNothingIsBestEffort) {
   EXPECT_EQ(rig.execution().counters().datagrams_sent, 0u);
   EXPECT_EQ(coast.ambassador.counters().datagrams_received, 0u);
   EXPECT_EQ(coast.heard.objects[object.value].updates, 1);
+}
+
+TEST(Datagrams, AreAcknowledgedTenTimesASecondWhereNoneIsMissing) {
+  Sea sea(8, 1);
+  const ObjectHandle object = sea.place_buoy();
+  sea.update(object, height);
+  sea.rounds(10);
+  const int before = sea.clients().sent;
+  const std::uint64_t frames_before = sea.counters().frames_sent;
+  for (int tick = 0; tick < 180; ++tick) {
+    sea.update(object, height);
+    sea.round();
+  }
+  EXPECT_GE(sea.clients().sent - before, 3 * 8);
+  EXPECT_LE(sea.clients().sent - before, 3 * 10 + 1);
+  EXPECT_LE(sea.counters().frames_sent - frames_before, 4u) << "and who hears of us by datagrams needs no heartbeats";
+  sea.expect_truth();
 }
 
 TEST(Datagrams, ManyObjectsAreCutIntoDatagramsOfTheAllowedSize) {
