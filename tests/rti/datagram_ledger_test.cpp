@@ -66,10 +66,10 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
         now += 0.005;
         if (random() % 3 != 0) {
           Sent next{.said = {}, .at = now, .is_settled = false};
-          const unsigned count = random() % 4;
+          const auto count = static_cast<unsigned>(random() % 4);
           for (unsigned i = 0; i < count; ++i) {
-            const std::uint32_t handle = random() % 6;
-            next.said[handle] |= 1u + random() % 7;
+            const auto handle = static_cast<std::uint32_t>(random() % 6);
+            next.said[handle] |= static_cast<std::uint32_t>(1 + random() % 7);
           }
           const SaidLists::Number list = count == 0 ? SaidLists::none : lists.add(list_of(next.said).groups());
           EXPECT_EQ(ledger.note(now, list), sent.size());
