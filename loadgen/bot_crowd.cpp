@@ -88,11 +88,12 @@ void BotCrowd::after_receiving(Bot& bot) {
     bot.probe.batch_applied(due, now_s_(), bat == nullptr ? 0 : bat->input.count, measurements_.is_counted(newest.time));
   }
   const std::uint32_t number = bot_of_connection_[bot.connection];
-  if (witness_ && witness_->watches(number)) witness_->listen(number, origin_s_ ? std::optional(now_s_() - *origin_s_) : std::nullopt);
+  if (witness_ && witness_->watches(number)) witness_->listen(number, origin_s_ ? std::optional(simulated_now()) : std::nullopt);
   sample_when_due();
+  take_turn(bot);
   act_when_due();  // between two bots' batches too: with many bots a tick's batches take longer than a key may be late
   const game::MirroredEntity* own = bot.client.bat();
-  if (own != nullptr && !(own->trajectory && origin_s_)) bot.client.follow_bat();
+  if (own != nullptr && !is_synchronous_ && !(own->trajectory && origin_s_)) bot.client.follow_bat();
   const std::optional<rti::Refusal> refusal = bot.client.refusal();
   if (bot.client.state() == game::Client::State::refused)
     lose(bot, bot.client.trouble(), refusal ? game::exit_status(*refusal) : game::ExitStatus::not_admitted);
@@ -120,9 +121,10 @@ void BotCrowd::send(Bot& bot) {
 
 void BotCrowd::run_once() {
   double wait_s = longest_wait_s;
-  if (origin_s_ && next_key_ < plan_.size()) wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
-  if (origin_s_ && !decision_order_.empty()) wait_s = std::clamp(due_s(next_decision()) - now_s_(), 0.0, longest_wait_s);
-  if (origin_s_ && witness_) wait_s = std::clamp(due_s(witness_->next_sample_s()) - now_s_(), 0.0, wait_s);
+  const bool has_schedule = origin_s_ && !is_synchronous_;
+  if (has_schedule && next_key_ < plan_.size()) wait_s = std::clamp(due_s(plan_[next_key_].time) - now_s_(), 0.0, longest_wait_s);
+  if (has_schedule && !decision_order_.empty()) wait_s = std::clamp(due_s(next_decision()) - now_s_(), 0.0, longest_wait_s);
+  if (has_schedule && witness_) wait_s = std::clamp(due_s(witness_->next_sample_s()) - now_s_(), 0.0, wait_s);
   transport_.poll(std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)), *this);
   advance_clocks();
   act_when_due();
@@ -135,7 +137,7 @@ void BotCrowd::run_once() {
 /// A bat on a trajectory moves without being heard of, so the interest follows it by the clock; one that is told positions is followed when they come.
 void BotCrowd::follow_bats() {
   const double now = now_s_();
-  if (now < bats_followed_s_ + follow_period_s) return;
+  if (is_synchronous_ || now < bats_followed_s_ + follow_period_s) return;
   bats_followed_s_ = now;
   for (const std::unique_ptr<Bot>& bot : bots_) {
     const game::MirroredEntity* bat = bot->client.bat();
@@ -175,8 +177,32 @@ void BotCrowd::start_clock(double origin_s, double simulated_s) {
   next_turn_ = static_cast<std::uint64_t>(simulated_s / game::decision_period) * decision_order_.size();
 }
 
+/// The server waits for this bot: it presses what its plan or its wits say by the newest tick, looks about, and hands the turn back.
+void BotCrowd::take_turn(Bot& bot) {
+  game::Client& client = bot.client;
+  if (bot.is_lost || !client.has_turn() || client.state() != game::Client::State::playing) return;
+  const double instant = client.turn_s();
+  is_synchronous_ = true;
+  turn_s_ = std::max(turn_s_, instant);
+  if (!origin_s_) start_clock(now_s_(), instant);
+  const std::uint32_t number = bot_of_connection_[bot.connection];
+  for (; bot.next_key < plan_.size() && plan_[bot.next_key].time <= instant; ++bot.next_key)
+    if (const DueKey& key = plan_[bot.next_key]; key.bot == number) press(bot, {&key.change, 1}, instant);
+  if (bot.player && bot.next_decision_s <= instant) {
+    decide(bot, instant);
+    bot.next_decision_s = instant + game::decision_period;
+  }
+  client.follow_bat(instant);
+  client.end_turn();
+  send(bot);
+}
+
+/// Simulated time of a crowd that has started.
+double BotCrowd::simulated_now() const { return is_synchronous_ ? turn_s_ : now_s_() - *origin_s_; }
+bool BotCrowd::has_come(double simulated_s) const { return is_synchronous_ ? turn_s_ >= simulated_s : now_s_() >= due_s(simulated_s); }
+
 void BotCrowd::act_when_due() {
-  if (!origin_s_) return;
+  if (!origin_s_ || is_synchronous_) return;
   press_due_keys();
   decide_when_due();
 }
@@ -195,7 +221,7 @@ void BotCrowd::press(Bot& bot, std::span<const KeyChange> changes, double instan
   if (bot.is_lost || bot.client.state() != game::Client::State::playing) return;
   for (const KeyChange& change : changes) change.is_down ? bot.client.press(change.key) : bot.client.release(change.key);
   send(bot);
-  for (std::size_t sent = 0; sent < changes.size(); ++sent) bot.probe.key_sent(due_s(instant), now_s_(), is_counted);
+  for (std::size_t sent = 0; sent < changes.size(); ++sent) bot.probe.key_sent(is_synchronous_ ? now_s_() : due_s(instant), now_s_(), is_counted);
 }
 
 /// The simulated instant of the next decision of all [s]. Decisions have a schedule of their own, as planned keys have: a bot that is late is late for it.
@@ -223,15 +249,14 @@ void BotCrowd::decide(Bot& bot, double instant) {
 }
 
 void BotCrowd::measure_span() {
-  const double now = now_s_();
-  if (!span_begin_s_ && now >= due_s(settings_.warm_up_s)) {
-    span_begin_s_ = now;
+  if (!span_begin_s_ && has_come(settings_.warm_up_s)) {
+    span_begin_s_ = now_s_();
     at_begin_ = total_traffic();
     received_by_bot_ = received_by_bot();
   }
-  if (span_begin_s_ && !is_measured_ && now >= due_s(settings_.duration_s)) {
+  if (span_begin_s_ && !is_measured_ && has_come(settings_.duration_s)) {
     is_measured_ = true;
-    measured_s_ = now - *span_begin_s_;
+    measured_s_ = now_s_() - *span_begin_s_;
     measured_ = total_traffic() - at_begin_;
     const std::vector<std::uint64_t> now_received = received_by_bot();
     for (std::size_t i = 0; i < now_received.size(); ++i) received_by_bot_[i] = now_received[i] - received_by_bot_[i];
@@ -251,7 +276,7 @@ std::optional<BotsEvidence> BotCrowd::evidence() const {
 
 void BotCrowd::sample_when_due() {
   if (!witness_ || !origin_s_) return;
-  if (const double simulated_s = now_s_() - *origin_s_; simulated_s >= witness_->next_sample_s()) witness_->sample(simulated_s);
+  if (const double simulated_s = simulated_now(); simulated_s >= witness_->next_sample_s()) witness_->sample(simulated_s);
 }
 
 std::vector<std::uint64_t> BotCrowd::received_by_bot() const {

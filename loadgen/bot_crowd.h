@@ -95,6 +95,8 @@ class BotCrowd : public rti::TransportListener {
     bool is_lost = false;
     std::optional<LivePlayer> player;
     game::KeysHeld held;  ///< by a player who decides
+    std::size_t next_key = 0;      ///< of the plan, where the server waits for turns
+    double next_decision_s = 0.0;  ///< the same
   };
   struct KeyChange {
     game::Key key;
@@ -121,6 +123,9 @@ class BotCrowd : public rti::TransportListener {
   void decide_when_due();
   void decide(Bot& bot, double instant);
   void press(Bot& bot, std::span<const KeyChange> changes, double instant);
+  void take_turn(Bot& bot);
+  bool has_come(double simulated_s) const;
+  double simulated_now() const;
   double next_decision() const;
   void follow_bats();
   void measure_span();
@@ -140,6 +145,8 @@ class BotCrowd : public rti::TransportListener {
   std::vector<std::uint32_t> decision_order_;  ///< bots by the phase of their decisions; empty if none decides
   std::uint64_t next_turn_ = 0;                ///< decisions made by all; bots take turns
   std::optional<double> origin_s_;  ///< the clock at simulated time 0, from the first stamp
+  bool is_synchronous_ = false;     ///< the server waits for turns: simulated time is that of the newest, no matter the clock
+  double turn_s_ = 0.0;
   std::optional<double> span_begin_s_;
   CrowdTraffic at_begin_, measured_;
   std::vector<std::uint64_t> received_by_bot_;  ///< at the span's begin, then within it

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "im/filter.h"
@@ -375,7 +376,7 @@ class Ambassador {
   FederateClock clock_;
   const TimedStamp* timed_ = nullptr;     ///< of the message being read, if it was sent in time-stamp order
   std::vector<std::byte> postponed_, content_; ///< messages in receive order that wait for the next request; the message inside one that goes in time-stamp order
-  std::vector<std::pair<std::uint32_t, AttributeSet>> order_changes_;  ///< objects whose attributes go in another order than the model says: those in time-stamp order
+  std::unordered_map<std::uint32_t, AttributeSet> order_changes_;  ///< objects whose attributes go in another order than the model says: those in time-stamp order
   std::vector<Order> interaction_orders_;                              ///< by class, once one differs from the model
   struct Deletion {
     std::uint64_t number = 0;

@@ -50,7 +50,7 @@ void Ambassador::modify_lookahead(double lookahead) {
 void Ambassador::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
 
 AttributeSet Ambassador::timestamped(ObjectHandle object, ObjectClassHandle object_class) const {
-  const auto changed = std::ranges::find(order_changes_, object.value, [](const auto& each) { return each.first; });
+  const auto changed = order_changes_.find(object.value);
   if (changed != order_changes_.end()) return changed->second;
   AttributeSet set;
   const std::vector<Attribute>& attributes = fom_.at(object_class).attributes;
@@ -155,8 +155,7 @@ void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet a
   if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "in class " + fom_.at(object_class).name);
   if (!owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
   const AttributeSet before = timestamped(object, object_class);
-  std::erase_if(order_changes_, [object](const auto& each) { return each.first == object.value; });
-  order_changes_.emplace_back(object.value, order == Order::timestamp ? before | attributes : AttributeSet(before.bits & ~attributes.bits));
+  order_changes_[object.value] = order == Order::timestamp ? before | attributes : AttributeSet(before.bits & ~attributes.bits);
 }
 
 void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class, Order order) {

@@ -16,7 +16,7 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
   ambassador_.join(settings.federation, settings.name, settings.only_watches ? watcher_federate_type : player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);
-  ambassador_.subscribe_interaction_class(model_.seat);
+  for (const rti::InteractionClassHandle interaction : {model_.seat, model_.pace}) ambassador_.subscribe_interaction_class(interaction);
   ambassador_.subscribe_object_class_attributes(model_.field, {model_.extent, model_.drag});
   ambassador_.subscribe_object_class_attributes(model_.score, {model_.goals});
   if (settings.only_watches) {
@@ -46,6 +46,7 @@ void Client::receive_interaction(rti::InteractionClassHandle interaction, rti::B
     return;
   }
   if (interaction == model_.interest) return receive_interest(parameters);
+  if (interaction == model_.pace) return receive_pace(parameters, stamp);
   SeatOffer offer;
   if (interaction != model_.seat || state_ != State::joining || !decode(parameters, offer)) return;
   if (offer.bat == SeatOffer::no_bat) {
@@ -94,7 +95,9 @@ void Client::release(Key key, double instant) { send_key(model_.key_up, key, ins
 void Client::send_key(rti::InteractionClassHandle interaction, Key key, double instant) {
   assert(state_ == State::playing && !settings_.only_watches);
   const KeyCharacter character{static_cast<std::uint8_t>(key_character(key))};
-  ambassador_.send_interaction(interaction, encode(encoded_, character), {.time = instant, .tag = 0});
+  encode(encoded_, character);
+  if (is_time_managed() && is_synchronous()) ambassador_.send_interaction(interaction, encoded_, rti::LogicalTime(ambassador_.clock().earliest()));
+  else ambassador_.send_interaction(interaction, encoded_, {.time = instant, .tag = 0});
   ++keys_sent_;
 }
 
@@ -118,8 +121,6 @@ void Client::receive_interest(rti::Bytes parameters) {
   if (decode(parameters, seen)) interest_ = std::move(seen);
 }
 
-void Client::end_turn() { ambassador_.send_interaction(model_.update, {}, {}); }
-
 void Client::announce_synchronization_point(std::string_view label, rti::Bytes) {
   if (label != start_barrier) return;
   is_called_ = true;
@@ -130,7 +131,7 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
 void Client::reach_barrier_once_ready() {
   const MirroredEntity* own = bat();
   if (state_ == State::seated && own != nullptr && own->in_scope) state_ = State::ready;
-  if (state_ != State::ready) return;
+  if (state_ != State::ready || !is_time_kept()) return;
   if (is_called_) {
     ambassador_.synchronization_point_achieved(start_barrier);
     is_called_ = false;

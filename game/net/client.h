@@ -64,8 +64,14 @@ class Client : public rti::FederateAmbassador {
   void ping(std::uint64_t number);
   /// Of one who only watches: asks what the server's filter decides of `object`.
   void inspect(rti::ObjectHandle object);
-  /// Synchronous mode: says that this player's turn is done.
+  /// Synchronous mode: says that this player's turn is done; under time management it then asks to advance to the next tick, so only while has_turn() (asserted).
   void end_turn();
+  /// True while the server waits for this player's turn, as far as it has told; false of one that ticks by its own timer.
+  bool has_turn() const { return has_turn_; }
+  bool is_synchronous() const { return pace_ && pace_->is_synchronous != 0; }
+  bool is_time_managed() const { return pace_ && pace_->is_time_managed != 0; }
+  /// Synchronous mode: the simulated instant [s] of the newest tick that was heard of.
+  double turn_s() const { return turn_s_; }
   /// Moves the interest region to where the bat was last seen; call it after each batch received. Sends nothing if the bat did not move (by half the margin).
   void follow_bat() { follow_bat(mirror_.newest().time); }
   /// The same to where the bat is believed to be at simulated `instant` [s]: one on a trajectory moves without being heard of.
@@ -115,6 +121,16 @@ class Client : public rti::FederateAmbassador {
   void remove_object_instance(rti::ObjectHandle object) override;
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
+  void time_regulation_enabled(rti::LogicalTime time) override;
+  void time_constrained_enabled(rti::LogicalTime time) override;
+  void time_advance_grant(rti::LogicalTime time) override;
+  void time_bounds(double galt, double lits) override;
+
+  void receive_pace(rti::Bytes parameters, const rti::Stamp& stamp);
+  bool is_time_kept() const;
+  void begin_time();
+  void ask_for_tick();
+  void pass_if_absent();
   void set_scope(rti::ObjectHandle object, bool is_in);
   void receive_interest(rti::Bytes parameters);
   void send_key(rti::InteractionClassHandle interaction, Key key, double instant);
@@ -129,6 +145,11 @@ class Client : public rti::FederateAmbassador {
   rti::ObjectHandle bat_;
   rti::RegionHandle view_;
   std::optional<SeatOffer> seat_;
+  std::optional<Pace> pace_;
+  bool has_turn_ = false;
+  bool awaits_bounds_ = false;    ///< asked how far the server's time is
+  std::uint64_t grants_ = 0;
+  double galt_ = 0.0, turn_s_ = 0.0;
   std::optional<Pong> pong_;
   std::optional<InterestSeen> interest_;
   Position centre_;

@@ -61,7 +61,8 @@ class ServerProcess {
       : options_(options),
         sockets_(options.transport),
         serving_(fom, scene,
-                 {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .replay = std::move(replay), .hosting = hosting_of(options)},
+                 {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
+                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options)},
                  federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
         gate_(sockets_.get(), {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
         server_(serving_.server()),
@@ -125,7 +126,7 @@ void ServerProcess::exchange_until(double until_s) {
 
 /// However long the players think, silence is noticed and the RTI is heard to live.
 void ServerProcess::await_turns() {
-  while (!game::is_interrupted && server_.trouble().empty() && !server_.all_turns_done()) {
+  while (!game::is_interrupted && server_.trouble().empty() && !server_.may_step()) {
     serving_.exchange(0.25);
     serving_.host().advance_clock(now_s());
   }
@@ -228,6 +229,8 @@ Json ServerProcess::report() const {
               {"clients", options_.clients},
               {"seed", options_.seed},
               {"tick_rate_hz", options_.rate_hz},
+              {"pace", options_.pace},
+              {"time_managed", options_.is_time_managed},
               {"ticks", costs_.ticks},
               {"ticks_on_time_fraction", static_cast<double>(costs_.ticks_on_time) / ticks},
               {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
@@ -246,7 +249,8 @@ Json ServerProcess::report() const {
 void require_match(const game::ServeOptions& options, const game::Scene& scene) {
   if (const auto objection = game::match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
   if (game::scene_text(options.scene).size() > game::SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
-  if (!options.keys.empty() || options.pace != "realtime") throw std::runtime_error("a hosted match is played by its players in real time: --keys and --pace cannot be given");
+  if (!options.keys.empty() || options.pace != "realtime" || options.is_time_managed)
+    throw std::runtime_error("a hosted match is played by its players in real time: --keys, --pace and --time-management cannot be given");
 }
 
 /// What a host of matches does unless it is told otherwise.

@@ -19,6 +19,7 @@ struct ServeOptions {
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
+  bool is_time_managed = false;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
 };
@@ -51,6 +52,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
       ->check(CLI::IsMember({"realtime", "synchronous"}))
       ->capture_default_str();
+  app.add_flag("--time-management", options.is_time_managed, "states, and in synchronous pace keys and turns, go in time-stamp order: the RTI says when a tick may be played or heard (docs/rti.md)");
   app.add_option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")->check(number_from(0.0, seconds_max))->capture_default_str();
   app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(number_from(0.0, seconds_max))->capture_default_str();
   app.add_option("--clients", options.clients, "players to wait for before the start")->check(number_from(0, bats_max))->capture_default_str();

@@ -24,8 +24,10 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       policy_(make_update_policy(settings.policy)),
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
+      is_synchronous_(settings.is_synchronous),
+      is_time_managed_(settings.is_time_managed),
       tick_s_(settings.tick_s) {
-  assert(!settings.hosting || (!is_replay_ && !match_objection(scene)));
+  assert(!settings.hosting || (!is_replay_ && !match_objection(scene) && !is_time_managed_));
   if (settings.hosting) {
     hosting_ = settings.hosting;
     scene_ = scene;
@@ -43,9 +45,11 @@ void Server::joined(rti::FederateHandle) {
   ambassador_.watch_federates();
   ambassador_.publish_interaction_class(model_.seat);
   ambassador_.publish_interaction_class(model_.interest);
+  ambassador_.publish_interaction_class(model_.pace);
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update, model_.inspect}) ambassador_.subscribe_interaction_class(interaction);
   publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_, sweep_);
   if (flow_) announce_match();
+  if (is_time_managed_) keep_time();
 }
 
 void Server::join_refused(rti::Refusal, std::string_view why) { trouble_ = why; }
@@ -56,6 +60,7 @@ void Server::call_to_start() {
   std::vector<rti::FederateHandle> members{ambassador_.federate()};
   for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
     if (seats_[federate]) members.push_back({federate});
+  is_called_ = true;
   ambassador_.register_synchronization_point(start_barrier, {}, members);
 }
 
@@ -66,7 +71,11 @@ void Server::synchronization_point_registration_failed(std::string_view, rti::Sy
 
 void Server::announce_synchronization_point(std::string_view label, rti::Bytes) { ambassador_.synchronization_point_achieved(label); }
 
-void Server::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) { is_started_ = is_started_ || label == start_barrier; }
+void Server::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) {
+  if (label != start_barrier) return;
+  is_started_ = true;
+  ask_for_turns();
+}
 
 void Server::federate_joined(rti::FederateHandle federate, std::string_view name, std::string_view type) {
   if (type != player_federate_type) return;
@@ -165,6 +174,8 @@ void Server::simulate(double until) {
 void Server::publish(const rti::Stamp& stamp) {
   publisher_->publish(game_, felt_, stamp);
   if (flow_) publish_match(stamp);
+  if (is_synchronous_ && !is_time_managed_ && is_started_ && stamp.time != paced_s_) tell_pace({}, paced_s_ = stamp.time);
+  ask_for_turns();
   offer_seats();
 }
 
@@ -175,6 +186,7 @@ void Server::offer_seats() {
     if (!seat || seat->is_offered) continue;
     const std::optional<EntityId> bat = game_.bat(seat->player);
     if (!bat) continue;
+    if (is_synchronous_ || is_time_managed_) tell_pace(rti::FederateHandle{federate}, game_.now());
     offer_seat(rti::FederateHandle{federate}, {.bat = seat->player, .position = rounded(game_.position(*bat))});
     seat->is_offered = true;
   }

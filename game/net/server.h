@@ -29,6 +29,8 @@ struct ServerSettings {
   std::string policy = "periodic";
   std::uint32_t sweep_ticks = 0;  ///< see RegionSweep
   double tick_s = 1.0 / 30.0;     ///< time between two ticks [s], which the sweep needs to know and the players of hosted matches are told
+  bool is_synchronous = false;    ///< players are told that they take turns
+  bool is_time_managed = false;   ///< states and turns go in time-stamp order (docs/rti.md, "The game under time management"); not with `hosting` (asserted)
   /// A recorded key log that moves the bats instead of the players' own keys, so that compared runs play the very same game.
   /// Live keys are then received, counted and acknowledged as ever, but not applied; nor are players' comings and goings.
   std::optional<std::vector<InputEvent>> replay;
@@ -61,6 +63,8 @@ class Server : public rti::FederateAmbassador {
   bool is_started() const { return is_started_; }
   /// Synchronous mode: true if every player has said `Update` since the last call of `simulate`.
   bool all_turns_done() const { return player_count_ > 0 && turns_done_ == player_count_; }
+  /// Synchronous mode: true if the next tick may be played; under time management that is when the RTI says that nothing can come any more that belongs before it.
+  bool may_step() const;
 
   /// Hosting only: lets real time pass to `real_s` [s], begins the next match if it is time, and tells how far to simulate.
   double follow_match(double real_s);
@@ -124,6 +128,10 @@ class Server : public rti::FederateAmbassador {
   void federate_resigned(rti::FederateHandle federate, std::string_view name, std::string_view type, rti::ResignReason reason) override;
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters, rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
+  void time_regulation_enabled(rti::LogicalTime time) override;
+  void keep_time();
+  void ask_for_turns();
+  void tell_pace(std::optional<rti::FederateHandle> federate, double now);
   std::optional<std::uint32_t> free_seat(std::string_view federate_name) const;
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
   void offer_seats();
@@ -155,7 +163,8 @@ class Server : public rti::FederateAmbassador {
   std::vector<InputEvent> record_;
   std::vector<Inspecting> inspections_;     ///< at most one of each federate
   std::uint32_t player_count_ = 0, turns_done_ = 0;
-  bool is_started_ = false;
+  bool is_synchronous_, is_time_managed_;
+  bool is_called_ = false, is_started_ = false;  ///< the players, to the start
   std::string trouble_;
   ServerCounters counters_;
 
@@ -168,6 +177,7 @@ class Server : public rti::FederateAmbassador {
   std::uint32_t match_number_ = 0;
   std::vector<KeyLog> finished_;
   double tick_s_;
+  double paced_s_ = 0.0;  ///< the tick that players were last told of, in synchronous mode without time management
   bool is_recorded_ = false;  ///< the present match
   bool is_unrecorded_ = false;  ///< what was played last could not be written
   bool is_urgent_ = false;

@@ -63,6 +63,14 @@ struct SeatOffer {
   Position position;
 };
 
+/// How a server ticks, for players who take turns or keep logical time with it (docs/rti.md, "The game under time management").
+struct Pace {
+  double ticks_per_second = 0.0;    ///< above 0
+  std::uint8_t is_synchronous = 0;  ///< the server steps when every player has said Update
+  std::uint8_t is_time_managed = 0;
+  std::uint8_t is_late = 0;         ///< this player came after the call to the start
+};
+
 /// Whether a player wants a match to stop or to go on.
 struct PauseWish {
   std::uint8_t is_wanted = 0;
@@ -148,6 +156,11 @@ bool exchange(Stream& stream, KeyCharacter& key) {
 template <class Stream>
 bool exchange(Stream& stream, SeatOffer& seat) {
   return stream.number(seat.bat) && exchange(stream, seat.position);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Pace& pace) {
+  return stream.finite(pace.ticks_per_second) && pace.ticks_per_second > 0.0 && stream.range(pace.is_synchronous, 1) && stream.range(pace.is_time_managed, 1) && stream.range(pace.is_late, 1);
 }
 
 /// The values one after the other, in `buffer`, which is overwritten; valid as long as it is.

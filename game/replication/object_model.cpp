@@ -70,6 +70,7 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       ping(interaction_class(fom, "Ping")),
       pong(interaction_class(fom, "Pong")),
       inspect(interaction_class(fom, "Inspect")),
-      interest(interaction_class(fom, "Interest")) {}
+      interest(interaction_class(fom, "Interest")),
+      pace(interaction_class(fom, "Pace")) {}
 
 }  // namespace rink::game

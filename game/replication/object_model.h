@@ -19,6 +19,7 @@ struct ObjectModel {
   rti::InteractionClassHandle key_down, key_up, update, seat;
   rti::InteractionClassHandle pause, rematch, ping, pong;  ///< of hosted matches
   rti::InteractionClassHandle inspect, interest;           ///< of who watches
+  rti::InteractionClassHandle pace;                        ///< of servers that wait for turns or keep logical time
 };
 
 }  // namespace rink::game

@@ -42,6 +42,7 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
 void Publisher::add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp) {
   Published& published = published_[entity.id.index];
   published.object = ambassador_.register_object_instance(model_.entity, entity.player ? bat_name(*entity.player) : "");
+  if (published.object && keeps_order_) ambassador_.change_attribute_order_type(published.object, {model_.input, motion_}, rti::Order::timestamp);
   if (!published.object) return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to be seen, the others play on
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
@@ -57,6 +58,18 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input, 
   rti::Writer writer(encoded_);
   policy_.write(game, entity, writer);
   ambassador_.update_attribute_values(published.object, {model_.shape, model_.input, motion_}, encoded_, stamp);
+}
+
+void Publisher::keep_order() {
+  keeps_order_ = true;
+  ambassador_.change_attribute_order_type(score_, {model_.goals}, rti::Order::timestamp);
+  for (const Published& each : published_)
+    if (each.object) ambassador_.change_attribute_order_type(each.object, {model_.input, motion_}, rti::Order::timestamp);
+}
+
+void Publisher::tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
+  if (keeps_order_ && stamp.time >= ambassador_.clock().earliest()) ambassador_.update_attribute_values(object, attributes, values, rti::LogicalTime(stamp.time), stamp.tag);
+  else ambassador_.update_attribute_values(object, attributes, values, stamp);
 }
 
 /// The update region, which follows the entity whether or not anything is sent.
@@ -98,7 +111,7 @@ void Publisher::update(const Game& game, const Entity& entity, const Input& inpu
   }
   counters_.motions_sent += is_due ? 1u : 0u;
   counters_.inputs_sent += has_felt ? 1u : 0u;
-  ambassador_.update_attribute_values(published.object, sent, encoded_, stamp);
+  tell(published.object, sent, encoded_, stamp);
 }
 
 void Publisher::retire_all() {
@@ -122,7 +135,7 @@ void Publisher::publish_score(const Game& game, const rti::Stamp& stamp) {
   const Goals goals{.left = score.left, .right = score.right, .is_over = static_cast<std::uint8_t>(game.is_over())};
   if (goals == goals_) return;
   goals_ = goals;
-  ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals), stamp);
+  tell(score_, {model_.goals}, encode(encoded_, goals), stamp);
 }
 
 }  // namespace rink::game

@@ -30,6 +30,9 @@ class Publisher {
   /// `felt[k]` is the number of player k's key events that the game has felt; players beyond its end felt none.
   void publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp);
 
+  /// From now on what changes of entities and score is said in time-stamp order, wherever its stamp lies ahead of the ambassador's logical time by its lookahead.
+  void keep_order();
+
   /// Deletes the objects of all entities: another game begins.
   void retire_all();
 
@@ -55,6 +58,7 @@ class Publisher {
   void retire_absent();
   void follow(const Game& game, const Entity& entity, Published& published);
   void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
+  void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
 
   const ObjectModel& model_;
@@ -68,6 +72,7 @@ class Publisher {
   rti::ObjectHandle field_, score_;
   Goals goals_;
   std::uint64_t tick_ = 0;
+  bool keeps_order_ = false;
   PublisherCounters counters_;
 };
 

@@ -79,17 +79,19 @@ struct Outcome {
   std::uint64_t state_hash = 0;
   std::vector<std::map<std::uint32_t, std::pair<float, float>>> seen;  ///< by player: positions of what is in scope
   std::uint64_t datagrams = 0;
+  std::uint64_t replayed_hash = 0;  ///< of the game played alone with the recorded keys
+  std::uint64_t grants = 0, timed_sent = 0;
 };
 
 /// Four players, 60 ticks, keys by a seed.
 class SynchronousGame {
  public:
-  SynchronousGame(const Carrier& carrier, const std::string& policy)
+  SynchronousGame(const Carrier& carrier, const std::string& policy, bool is_time_managed = false)
       : carrier_(carrier),
         scene_(small_crowd()),
         fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
         model_(fom_),
-        serving_(fom_, scene_, {.policy = policy, .replay = {}}, federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
+        serving_(fom_, scene_, {.policy = policy, .is_synchronous = true, .is_time_managed = is_time_managed, .replay = {}}, federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
     serving_.host().add(carrier.server());
     for (int i = 0; i < player_count; ++i) {
       ClientSettings settings;
@@ -117,7 +119,7 @@ class SynchronousGame {
         random() % 2 == 0 ? player.client->press(key) : player.client->release(key);
         player.client->end_turn();
       }
-      until([&] { return serving_.server().all_turns_done(); }, [] {});
+      until([&] { return serving_.server().may_step(); }, [] {});
       serving_.tick(tick / 30.0, 0.0);
       // Everybody's view follows before the next turn, so that it is the same however long news takes.
       settle();
@@ -167,6 +169,12 @@ class SynchronousGame {
   Outcome outcome() const {
     Outcome outcome;
     outcome.state_hash = serving_.server().game().hash();
+    Game alone(scene_);
+    for (const InputEvent& event : serving_.server().record()) alone.submit(event);
+    alone.advance(serving_.server().game().now());
+    outcome.replayed_hash = alone.hash();
+    outcome.grants = serving_.execution().counters().time_advance_grants;
+    outcome.timed_sent = serving_.execution().counters().timed_sent;
     outcome.datagrams = serving_.execution().counters().datagrams_sent;
     for (const Player& each : players_) {
       auto& seen = outcome.seen.emplace_back();
@@ -201,6 +209,20 @@ TEST_P(EveryTransportsGame, EndsInTheSameStateAndLooksTheSameToEveryPlayer) {
     EXPECT_EQ(is.seen, expected.seen);
     const bool takes_datagrams = std::string(GetParam()) == "periodic" && (name == "udp" || name == "virtual network");
     EXPECT_EQ(is.datagrams > 0, takes_datagrams);
+  }
+}
+
+TEST_P(EveryTransportsGame, IsTheSameToTheBitUnderTimeManagement) {
+  const Outcome expected = SynchronousGame(in_process(), GetParam()).play();
+  EXPECT_EQ(expected.replayed_hash, expected.state_hash);
+  for (const auto& [name, carrier] : {std::pair{"in process", in_process()}, {"tcp", sockets("tcp")}, {"shared memory", sockets("shm")}}) {
+    SCOPED_TRACE(name);
+    const Outcome is = SynchronousGame(carrier, GetParam(), true).play();
+    EXPECT_EQ(is.state_hash, expected.state_hash);
+    EXPECT_EQ(is.replayed_hash, expected.state_hash);
+    EXPECT_EQ(is.seen, expected.seen);
+    EXPECT_GE(is.grants, 60u * 5u);      // to four players and the server, for each tick
+    EXPECT_GT(is.timed_sent, 60u * 4u);  // turns and keys at least
   }
 }
 
