@@ -86,7 +86,8 @@ Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reade
   if (!management_->may_send(slot, wire.stamp.time)) return Violation::untimely;
   Sender& from = sender(slot);
   if (wire.number < from.next_number) return Violation::malformed;
-  if (messages_.size() - free_.size() >= parts_.settings_.timed_max) return Violation::over_limit;
+  if (is_full()) make_room(slot);
+  if (is_full()) return Violation::over_limit;
   const std::uint32_t index = take_place();
   Message& message = messages_[index];
   message.sender = parts_.federates_[slot].handle;
@@ -103,6 +104,21 @@ Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reade
   arrived_.push_back(index);
   ++parts_.counters_.timed_received;
   return std::nullopt;
+}
+
+bool FederationExecution::Parts::Time::is_full() const { return messages_.size() - free_.size() >= parts_.settings_.timed_max; }
+
+/// Forgets what nobody can ask for any more. If that is not enough: who never asks for what waits for it must not cost the others the federate that they all listen to.
+void FederationExecution::Parts::Time::make_room(std::uint32_t speaker) {
+  for (std::uint32_t slot = 0; slot < senders_.size(); ++slot) forget_final(slot);
+  if (!is_full()) return;
+  std::vector<std::size_t> waiting(parts_.federates_.size());
+  for (const Message& message : messages_)
+    for (const Message::Receiver& each : message.receivers)
+      if (each.is_waiting) ++waiting[parts_.slot_of_handle_[each.federate.value]];
+  const auto slowest = static_cast<std::uint32_t>(std::ranges::max_element(waiting) - waiting.begin());
+  if (slowest == speaker || waiting[slowest] == 0) return;
+  parts_.expel(parts_.federates_[slowest].connection, Violation::over_limit, ResignReason::lost, "more waits for its time than the federation keeps");
 }
 
 Outcome FederationExecution::Parts::Time::read_content(std::uint32_t slot, Bytes bytes, Message& message) {

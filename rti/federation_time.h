@@ -60,6 +60,8 @@ class FederationExecution::Parts::Time final : public TimeListener {
   Outcome read_interaction(std::uint32_t slot, Reader& content, Message& message);
   Outcome read_deletion(std::uint32_t slot, Reader& content, Message& message);
   Outcome retract(std::uint32_t slot, Reader& reader);
+  bool is_full() const;
+  void make_room(std::uint32_t speaker);
   std::uint32_t take_place();
   Sender& sender(std::uint32_t slot);
   void forget_final(std::uint32_t slot);

@@ -157,6 +157,7 @@ void Server::submit(const InputEvent& event) {
 
 void Server::simulate(double until) {
   game_.advance(until);
+  has_stepped_ = true;
   std::erase_if(pending_, [&](const Pending& pending) {
     if (pending.time > until) return false;
     ++felt_[pending.player];
@@ -174,7 +175,7 @@ void Server::simulate(double until) {
 void Server::publish(const rti::Stamp& stamp) {
   publisher_->publish(game_, felt_, stamp);
   if (flow_) publish_match(stamp);
-  if (is_synchronous_ && !is_time_managed_ && is_started_ && stamp.time != paced_s_) tell_pace({}, paced_s_ = stamp.time);
+  if (std::exchange(has_stepped_, false) && is_synchronous_ && !is_time_managed_) tell_pace({}, stamp.time);
   ask_for_turns();
   offer_seats();
 }

@@ -177,7 +177,7 @@ class Server : public rti::FederateAmbassador {
   std::uint32_t match_number_ = 0;
   std::vector<KeyLog> finished_;
   double tick_s_;
-  double paced_s_ = 0.0;  ///< the tick that players were last told of, in synchronous mode without time management
+  bool has_stepped_ = false;  ///< since players were last told so, in synchronous mode without time management
   bool is_recorded_ = false;  ///< the present match
   bool is_unrecorded_ = false;  ///< what was played last could not be written
   bool is_urgent_ = false;

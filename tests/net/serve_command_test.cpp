@@ -104,6 +104,39 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   std::filesystem::remove(report);
 }
 
+TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlayerHoldsNobodyBack) {
+  std::vector<std::string> hashes;
+  for (const bool is_managed : {false, true, true}) {
+    const bool loses_one = hashes.size() == 2;
+    const std::filesystem::path report = std::filesystem::path(testing::TempDir()) / ("serve-" + std::to_string(getpid()) + ".json");
+    std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "6", "--clients", "6", "--puck-count", "30", "--pace", "synchronous", "--port", "0", "--report", report.string(), "--duration"};
+    flags.push_back(loses_one ? "200" : "2");
+    if (is_managed) flags.push_back("--time-management");
+    Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
+    std::optional<std::string> place;
+    for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+    ASSERT_TRUE(place) << server.last_words();
+    const std::vector<std::string> bots{"--connect", *place, "--count", "3", "--seed", "5", "--duration", flags[15]};
+    Process first(test::binary_folder() + "/bin/rink-bots", bots, {});
+    std::vector<std::string> others = bots;
+    others.insert(others.end(), {"--first", "3"});
+    Process second(test::binary_folder() + "/bin/rink-bots", others, {});
+    const auto limit = std::chrono::steady_clock::now() + 20s;
+    for (bool is_killed = false; !server.ending() && std::chrono::steady_clock::now() < limit; is_killed = true) {
+      if (loses_one && !is_killed) std::this_thread::sleep_for(300ms), second.stop(0s);
+      for (Process* each : {&server, &first, &second}) each->attend(10ms);
+    }
+    ASSERT_TRUE(server.ending()) << server.last_words();
+    const nlohmann::json told = nlohmann::json::parse(std::ifstream(report));
+    EXPECT_EQ(told.at("time_managed"), is_managed);
+    EXPECT_EQ(told.at("ticks"), loses_one ? 6001 : 61);
+    EXPECT_EQ(told.at("lost_federates"), loses_one ? 3 : 0);
+    hashes.push_back(told.at("state_hash"));
+    std::filesystem::remove(report);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
   std::optional<std::string> place;

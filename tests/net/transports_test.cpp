@@ -91,7 +91,8 @@ class SynchronousGame {
         scene_(small_crowd()),
         fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
         model_(fom_),
-        serving_(fom_, scene_, {.policy = policy, .is_synchronous = true, .is_time_managed = is_time_managed, .replay = {}}, federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
+        serving_(fom_, scene_, {.policy = policy, .is_synchronous = true, .is_time_managed = is_time_managed, .replay = {}},
+                 federation_settings(scene_, "region", 0.0), now_s, [this] { return serving_.server().game().now(); }) {
     serving_.host().add(carrier.server());
     for (int i = 0; i < player_count; ++i) {
       ClientSettings settings;

@@ -82,7 +82,7 @@ struct TimedFederate : FederateAmbassador {
 /// No transport: bytes lie between federate and RTI until the test carries them.
 class TimedFederation : public Outlet {
  public:
-  explicit TimedFederation(const FederationServices& services = {}) : execution_(harbour(), {}, services) {}
+  explicit TimedFederation(const FederationServices& services = {}, const FederationSettings& settings = {}) : execution_(harbour(), settings, services) {}
 
   /// Joined, and sends and hears hails in time-stamp order.
   TimedFederate& join() {

@@ -80,5 +80,22 @@ TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
   EXPECT_EQ(receiver.heard[receiver.heard.size() - 2].text, text_of(port));
 }
 
+TEST(TimedMessages, OneWhoNeverAdvancesIsLostBeforeWhatWaitsForItCostsTheOthersTheirSender) {
+  TimedFederation federation({}, {.timed_max = 100});
+  TimedFederate& sender = federation.join_timed(1.0);
+  TimedFederate& awake = federation.join_timed(-1.0);
+  TimedFederate& stopped = federation.join_timed(-1.0);
+  for (int step = 1; step <= 300; ++step) {
+    TimedFederation::say(sender, sender.clock().earliest(), "step " + std::to_string(step));
+    for (TimedFederate* each : {&sender, &awake}) each->ambassador.time_advance_request(LogicalTime(step));
+    federation.carry();
+  }
+  EXPECT_EQ(awake.times(What::message).size(), 300u);
+  EXPECT_EQ(sender.lost, "");
+  EXPECT_EQ(awake.lost, "");
+  EXPECT_NE(stopped.lost, "");
+  EXPECT_EQ(federation.drops(Violation::over_limit), 1u);
+}
+
 }  // namespace
 }  // namespace rink::rti
