@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "im/overlap_filter.h"
 
@@ -35,8 +36,12 @@ class GridFilter final : public OverlapFilter {
 
  private:
   static Region touched(const Region& region, const Region& world, double size) {
-    return {std::floor((region.low_x - world.low_x) / size), std::floor((region.low_y - world.low_y) / size),
-            std::floor((region.high_x - world.low_x) / size), std::floor((region.high_y - world.low_y) / size)};
+    return {cell(region.low_x, world.low_x, size), cell(region.low_y, world.low_y, size), cell(region.high_x, world.low_x, size), cell(region.high_y, world.low_y, size)};
+  }
+  /// What lies beyond the largest number shares the last cell.
+  static double cell(double coordinate, double origin, double size) {
+    constexpr double bound = std::numeric_limits<double>::max();
+    return std::clamp(std::floor((coordinate - origin) / size), -bound, bound);
   }
 
   Region world_;

@@ -17,7 +17,8 @@ struct Layer {
 
 /// The most specific folder stands before those that contain it. bench and tests may include anything.
 const std::vector<Layer> layers{
-    {"im", {"im"}},
+    {"im/matching", {"im/matching", "im"}},
+    {"im", {"im", "im/matching"}},
     {"rti/transport", {"rti/transport", "rti", "im"}},
     {"rti", {"rti", "im"}},
     {"game/physics/collision", {"game/physics/collision", "game/physics"}},

@@ -1,0 +1,44 @@
+// Bins both sides and joins them.
+#include "im/matching/batch_matcher.h"
+
+#include "im/region_history.h"
+
+namespace rink::im {
+namespace {
+
+struct Exact {
+  std::span<const Region> updates, subscriptions;
+};
+
+bool is_overlap(const void* context, std::uint32_t subscription, std::uint32_t update) {
+  const auto& exact = *static_cast<const Exact*>(context);
+  return overlap(exact.updates[update], exact.subscriptions[subscription]);
+}
+
+}  // namespace
+
+std::optional<Rejection> BatchMatcher::set_world(const Region& world) {
+  auto rejection = check_world(world);
+  if (!rejection) world_ = world;
+  return rejection;
+}
+
+void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index) {
+  index.begin(world_, regions.size(), false);
+  for (std::uint32_t id = 0; id < regions.size(); ++id) {
+    if (is_valid(regions[id])) index.stage(id, regions[id]);
+    else rejections_.push_back({*fault_of(regions[id]), subject, id});
+  }
+  index.build();
+}
+
+void BatchMatcher::match(std::span<const Region> updates, std::span<const Region> subscriptions) {
+  rejections_.clear();
+  join_.clear();
+  stage(updates, Subject::update_region, updates_);
+  stage(subscriptions, Subject::subscription_region, subscriptions_);
+  const Exact exact{updates, subscriptions};
+  join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), is_overlap, &exact});
+}
+
+}  // namespace rink::im

@@ -1,0 +1,31 @@
+// What was wrong with something handed in, and whose it was. Whoever rejects it goes on without it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "im/filter.h"
+
+namespace rink::im {
+
+enum class Fault : std::uint8_t { inverted, not_finite, unknown_id, doubled_id, no_area, bad_cell_size };
+enum class Subject : std::uint8_t { update_region, subscription_region, world, cells };
+
+struct Rejection {
+  Fault fault;
+  Subject subject;
+  std::uint32_t id = 0;  ///< of the region; the world and the cells have none
+  friend bool operator==(const Rejection&, const Rejection&) = default;
+};
+
+/// A sentence that names the offender, such as "subscription region 7 is inverted: its low exceeds its high".
+std::string describe(const Rejection& rejection);
+
+/// Nothing if `region` is finite and not inverted.
+std::optional<Fault> fault_of(const Region& region);
+
+/// Nothing if `world` is finite and has an area.
+std::optional<Rejection> check_world(const Region& world);
+
+}  // namespace rink::im

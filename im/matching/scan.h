@@ -1,0 +1,61 @@
+// The innermost loops of every matcher: one box against stretches of many, eight at a time where the processor can.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "im/matching/projection.h"
+
+namespace rink::im {
+
+/// Boxes in columns. Eight more than the last are readable.
+struct BoxColumns {
+  const float *low_x, *low_y, *high_x, *high_y;
+};
+
+/// What is scanned: `before` is where the boxes were, or the same columns as `now` if all rest.
+struct Candidates {
+  BoxColumns before, now;
+  const std::uint32_t* ids;
+};
+
+/// Places `first` to `end` of the candidates.
+struct Stretch {
+  std::uint32_t first, end;
+};
+
+/// One who asks; its stretches begin where those of the probe before it end.
+struct Probe {
+  FloatBox before, now;
+  std::uint32_t id;
+  std::uint32_t stretches_end;
+};
+
+/// Decides pairs whose projections tie. Not needed where all projections are exact: a tie then is an overlap.
+struct TieJudge {
+  bool is_needed;
+  bool (*is_match)(const void* context, std::uint32_t probe_id, std::uint32_t candidate_id);
+  const void* context;
+};
+
+/// Writes to `found` the ids of each probe's matches, in the order of its stretches, and to `ends` where those of each probe end, counted from `found`. `found`
+/// has room for all candidates and eight more. Returns the number of matches.
+using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                             std::uint32_t* ends);
+
+struct Scans {
+  Scan overlaps;  ///< matches: `now` overlaps `now`
+  Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ
+  const char* name;
+};
+
+enum class Instructions : std::uint8_t { best, scalar };
+
+/// The same matches in the same order, whatever is chosen. `best` asks the processor.
+const Scans& scans(Instructions instructions);
+
+extern const Scans scalar_scans;
+/// Null where the compiler cannot make them.
+extern const Scans* const avx2_scans;
+
+}  // namespace rink::im

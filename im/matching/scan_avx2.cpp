@@ -1,0 +1,115 @@
+// Scans eight candidates at a time with AVX2 and packs the matches to the left; each function says so itself, the rest of the build stays at the baseline.
+#include "im/matching/scan.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include <array>
+
+#define RINK_AVX2 __attribute__((target("avx2,popcnt")))
+
+namespace rink::im {
+namespace {
+
+/// For each set of eight lanes, the numbers of those that are in it, first of all.
+constexpr std::array<std::uint64_t, 256> packings = [] {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned lanes = 0; lanes < 256; ++lanes) {
+    unsigned place = 0;
+    for (std::uint64_t lane = 0; lane < 8; ++lane)
+      if (lanes >> lane & 1u) table[lanes] |= lane << 8 * place++;
+  }
+  return table;
+}();
+
+struct WideBox {
+  __m256 low_x, low_y, high_x, high_y;
+};
+
+RINK_AVX2 inline WideBox widen(const FloatBox& box) {
+  return {_mm256_set1_ps(box.low_x), _mm256_set1_ps(box.low_y), _mm256_set1_ps(box.high_x), _mm256_set1_ps(box.high_y)};
+}
+
+/// The smallest of the four differences that must not be negative in an overlap.
+RINK_AVX2 inline __m256 clearance(const BoxColumns& boxes, std::size_t i, const WideBox& probe) {
+  const __m256 x = _mm256_min_ps(_mm256_sub_ps(probe.high_x, _mm256_loadu_ps(boxes.low_x + i)), _mm256_sub_ps(_mm256_loadu_ps(boxes.high_x + i), probe.low_x));
+  const __m256 y = _mm256_min_ps(_mm256_sub_ps(probe.high_y, _mm256_loadu_ps(boxes.low_y + i)), _mm256_sub_ps(_mm256_loadu_ps(boxes.high_y + i), probe.low_y));
+  return _mm256_min_ps(x, y);
+}
+
+RINK_AVX2 inline unsigned ties(__m256 clearances) {
+  return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(clearances, _mm256_setzero_ps(), _CMP_EQ_OQ)));
+}
+
+/// The lanes that count in a stretch with `rest` candidates left.
+inline unsigned lanes(std::size_t rest) { return (1u << std::min<std::size_t>(rest, 8)) - 1u; }
+
+/// Asks the judge about each of `doubtful`.
+[[gnu::noinline]] unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, const std::uint32_t* ids) {
+  for (; doubtful != 0; doubtful &= doubtful - 1u) {
+    const unsigned lane = static_cast<unsigned>(__builtin_ctz(doubtful));
+    hits = (hits & ~(1u << lane)) | static_cast<unsigned>(judge.is_match(judge.context, probe, ids[lane])) << lane;
+  }
+  return hits;
+}
+
+/// Writes the ids of `hits`, and rubbish behind them.
+RINK_AVX2 inline std::size_t pack(unsigned hits, const std::uint32_t* ids, std::uint32_t* found) {
+  const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&packings[hits])));
+  const __m256i packed = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), order);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), packed);
+  return static_cast<std::size_t>(__builtin_popcount(hits));
+}
+
+RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                                    std::uint32_t* ends) {
+  std::size_t count = 0, stretch = 0;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const WideBox now = widen(probes[p].now);
+    for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += 8) {
+        const __m256 clearances = clearance(candidates.now, i, now);
+        const unsigned valid = lanes(stretches[stretch].end - i);
+        unsigned hits = ~static_cast<unsigned>(_mm256_movemask_ps(clearances)) & valid;
+        if (judge.is_needed)
+          if (const unsigned doubtful = ties(clearances) & valid) hits = decide(hits, doubtful, judge, probes[p].id, candidates.ids + i);
+        count += pack(hits, candidates.ids + i, found + count);
+      }
+    ends[p] = static_cast<std::uint32_t>(count);
+  }
+  return count;
+}
+
+RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                                   std::uint32_t* ends) {
+  std::size_t count = 0, stretch = 0;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
+    for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += 8) {
+        const __m256 then = clearance(candidates.before, i, before), today = clearance(candidates.now, i, now);
+        const unsigned valid = lanes(stretches[stretch].end - i);
+        unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_xor_ps(then, today))) & valid;
+        if (judge.is_needed)
+          if (const unsigned doubtful = (ties(then) | ties(today)) & valid) hits = decide(hits, doubtful, judge, probes[p].id, candidates.ids + i);
+        // Most moves change nothing, so this is foreseen.
+        if (hits != 0) count += pack(hits, candidates.ids + i, found + count);
+      }
+    ends[p] = static_cast<std::uint32_t>(count);
+  }
+  return count;
+}
+
+constexpr Scans wide_scans{scan_overlaps, scan_changes, "avx2"};
+
+}  // namespace
+
+const Scans* const avx2_scans = &wide_scans;
+
+}  // namespace rink::im
+
+#else
+namespace rink::im {
+const Scans* const avx2_scans = nullptr;
+}
+#endif

@@ -1,0 +1,65 @@
+// Scans one candidate after the other, without branches on the outcome; and chooses between this and wider instructions.
+#include "im/matching/scan.h"
+
+namespace rink::im {
+namespace {
+
+/// The smallest of the four differences that must not be negative in an overlap.
+inline float clearance(const BoxColumns& boxes, std::size_t i, const FloatBox& probe) {
+  const float x = std::min(probe.high_x - boxes.low_x[i], boxes.high_x[i] - probe.low_x), y = std::min(probe.high_y - boxes.low_y[i], boxes.high_y[i] - probe.low_y);
+  return std::min(x, y);
+}
+
+template <class Match>
+std::size_t scan(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found, std::uint32_t* ends,
+                 const Match& match) {
+  std::size_t count = 0, stretch = 0;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const Probe probe = probes[p];
+    for (; stretch < probe.stretches_end; ++stretch)
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; ++i) {
+        bool is_tie = false;
+        bool is_match = match(i, probe, is_tie);
+        if (judge.is_needed && is_tie) is_match = judge.is_match(judge.context, probe.id, candidates.ids[i]);
+        found[count] = candidates.ids[i];
+        count += is_match;
+      }
+    ends[p] = static_cast<std::uint32_t>(count);
+  }
+  return count;
+}
+
+std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                          std::uint32_t* ends) {
+  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe, bool& is_tie) {
+    const float now = clearance(candidates.now, i, probe.now);
+    is_tie = now == 0.0f;
+    return now >= 0.0f;
+  });
+}
+
+std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
+                         std::uint32_t* ends) {
+  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe, bool& is_tie) {
+    const float before = clearance(candidates.before, i, probe.before), now = clearance(candidates.now, i, probe.now);
+    is_tie = (before == 0.0f) | (now == 0.0f);
+    return (before >= 0.0f) != (now >= 0.0f);
+  });
+}
+
+}  // namespace
+
+const Scans scalar_scans{scan_overlaps, scan_changes, "scalar"};
+
+const Scans& scans(Instructions instructions) {
+  static const bool has_avx2 = [] {
+#if defined(__x86_64__)
+    return avx2_scans != nullptr && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt");
+#else
+    return false;
+#endif
+  }();
+  return instructions == Instructions::best && has_avx2 ? *avx2_scans : scalar_scans;
+}
+
+}  // namespace rink::im

@@ -1,0 +1,34 @@
+// Sorts boxes into few classes of like size, so that one huge box does not make everyone look far.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace rink::im {
+
+/// Classes by powers of two of the longer side. Count all sides, then `choose`, then ask for each one's level.
+class SizeLevels {
+ public:
+  static constexpr std::size_t level_max = 8;
+
+  void clear() { counts_.fill(0); }
+  void count(float side) { ++counts_[bucket(side)]; }
+  /// Levels from the largest boxes down, each of a factor of at most eight (the last of all below); a level with few boxes joins the one above it.
+  void choose();
+
+  std::size_t size() const { return size_; }
+  std::size_t level(float side) const { return level_of_[bucket(side)]; }
+  std::size_t population(std::size_t level) const { return populations_[level]; }
+
+ private:
+  void close_level();
+  static std::size_t bucket(float side) { return std::bit_cast<std::uint32_t>(side) >> 23 & 0xFFu; }
+
+  std::array<std::uint32_t, 256> counts_{};
+  std::array<std::uint8_t, 256> level_of_{};
+  std::array<std::size_t, level_max> populations_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace rink::im
