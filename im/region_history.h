@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "im/filter.h"
+#include "im/matching/buffer.h"
 
 namespace rink::im {
 
@@ -22,14 +22,17 @@ inline bool overlap(const Region& a, const Region& b) {
   return (a.low_x <= b.high_x) & (b.low_x <= a.high_x) & (a.low_y <= b.high_y) & (b.low_y <= a.high_y);
 }
 
-/// A region's two places: at the last match and now. Either may be `nowhere`.
-struct Motion {
+/// A region's two places: at the last match and now. Either may be `nowhere`. One line of memory.
+struct alignas(64) Motion {
   Region before = nowhere, now = nowhere;
 };
 
-/// The regions of all entities, or of all subscribers, by id. Memory: 65 bytes per id up to the largest one used, 4 more per id that moved.
+/// The regions of all entities, or of all subscribers, by id. Memory: 64 bytes and a bit per id up to the largest one used, 4 more per id that moved.
 class RegionHistory {
  public:
+  /// Ids are less than this.
+  static constexpr std::uint32_t id_max = 0x7FFFFFFF;
+
   /// Adds or moves `id`; false, and nothing done, if it is there already.
   bool set(std::uint32_t id, const Region& region);
   /// Forgets `id`, its past included; false if it is not known.
@@ -38,17 +41,26 @@ class RegionHistory {
   /// Ids run from 0 to size() - 1; some of them may be nowhere.
   std::size_t size() const { return motions_.size(); }
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
-  bool has_moved(std::uint32_t id) const { return is_listed_[id] != 0; }
+  bool has_moved(std::uint32_t id) const { return is_listed(id); }
 
   /// Sorts out and returns those whose place now is not the one before, in ascending order; has_moved agrees from here to `settle`.
   std::span<const std::uint32_t> take_moved();
   /// Makes now the new before.
   void settle();
 
+  /// Asks the processor for a motion that will be wanted soon.
+  void prefetch(std::uint32_t id) const { __builtin_prefetch(&motions_[id]); }
+
+  std::size_t bytes() const { return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() + sizeof(std::uint32_t) * moved_.capacity(); }
+
  private:
-  std::vector<Motion> motions_;
-  std::vector<std::uint8_t> is_listed_;
-  std::vector<std::uint32_t> moved_;
+  void grow(std::size_t count);
+  void unlist(std::uint32_t id);
+  bool is_listed(std::uint32_t id) const { return (listed_[id / 64] >> id % 64 & 1u) != 0; }
+
+  Buffer<Motion> motions_;
+  Buffer<std::uint64_t> listed_;  // a bit for each id
+  Buffer<std::uint32_t> moved_;
 };
 
 }  // namespace rink::im

@@ -10,9 +10,9 @@ struct Exact {
   std::span<const Region> updates, subscriptions;
 };
 
-bool is_overlap(const void* context, std::uint32_t subscription, std::uint32_t update) {
+Verdict judge(const void* context, std::uint32_t subscription, std::uint32_t update) {
   const auto& exact = *static_cast<const Exact*>(context);
-  return overlap(exact.updates[update], exact.subscriptions[subscription]);
+  return overlap(exact.updates[update], exact.subscriptions[subscription]) ? Verdict::match : Verdict::no;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void BatchMatcher::match(std::span<const Region> updates, std::span<const Region
   stage(updates, Subject::update_region, updates_);
   stage(subscriptions, Subject::subscription_region, subscriptions_);
   const Exact exact{updates, subscriptions};
-  join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), is_overlap, &exact});
+  join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
 }
 
 }  // namespace rink::im

@@ -1,10 +1,13 @@
-// The cells of one class of sizes: from a box to its cell, and from a question to the cells that can hold answers.
+// Cells for boxes, a grid for each class of sizes: from a box to its cell, and from a question to the cells that can hold answers.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "im/matching/projection.h"
+#include "im/matching/size_levels.h"
 
 namespace rink::im {
 
@@ -37,12 +40,17 @@ struct CellAxis {
   float margin(float coordinate) const { return (std::abs(coordinate) + widest) * 0x1p-22f; }
 };
 
-/// A grid over the world of `count` cells at most twice as many as its boxes, stored row after row.
+/// A grid over the world, row after row.
 struct CellLevel {
   CellAxis x, y;
   std::uint32_t first_cell = 0;
   bool has_newcomers = false;  ///< a box that was nowhere before changes for every question
 
+  /// Lets it hold a box of this size.
+  void widen(const FloatBox& box) {
+    x.widest = std::max(x.widest, box.high_x - box.low_x);
+    y.widest = std::max(y.widest, box.high_y - box.low_y);
+  }
   std::uint32_t columns() const { return static_cast<std::uint32_t>(x.last) + 1; }
   std::uint32_t cell_count() const { return columns() * (static_cast<std::uint32_t>(y.last) + 1); }
   std::uint32_t cell(float low_x, float low_y) const {
@@ -50,8 +58,59 @@ struct CellLevel {
   }
 };
 
-/// Rows as high as `boxes_per_square` boxes fill a square of, columns a fraction of it, over a world of `width` times `height` in which a box sees
-/// `crowding` times the mean density around it.
-CellLevel lay_out(std::size_t box_count, double width, double height, double crowding);
+/// How many boxes cells hold. Where boxes are, a square as high as a row holds `boxes_per_square` and is cut into `columns_per_row` cells.
+struct CellShape {
+  double boxes_per_square, columns_per_row, cells_per_box_max;
+};
+
+/// The classes of size of many boxes and the cells of each.
+class CellLevels {
+ public:
+  /// For boxes whose sides were counted in `sizes`. How they crowd is taken from a sample of `boxes`.
+  void choose(SizeLevels& sizes, std::span<const FloatBox> boxes, const Region& world, const CellShape& shape);
+
+  std::size_t size() const { return levels_.size(); }
+  std::uint32_t cell_count() const { return levels_.back().first_cell + levels_.back().cell_count(); }
+  CellLevel& of(const SizeLevels& sizes, const FloatBox& box) { return levels_[levels_.size() == 1 ? 0 : sizes.level(longer_side(box))]; }
+  auto begin() const { return levels_.begin(); }
+  auto end() const { return levels_.end(); }
+  const CellLevel& operator[](std::size_t i) const { return levels_[i]; }
+
+ private:
+  std::vector<CellLevel> levels_;
+};
+
+/// The cells of a level that a question must look at: `columns` of `rows`, but not those that are in both `inner_columns` and `inner_rows`.
+struct CellQuery {
+  CellRange columns, rows, inner_columns{0, -1}, inner_rows{0, -1};
+  bool has_inner(std::int32_t row) const { return !inner_columns.is_empty() && inner_rows.first <= row && row <= inner_rows.last; }
+
+  /// Calls `visit(first, last)` with closed ranges of adjacent cells of `level`.
+  template <class Visit>
+  void for_each_run(const CellLevel& level, const Visit& visit) const {
+    for (std::int32_t row = rows.first; row <= rows.last; ++row) {
+      const std::uint32_t cell = level.first_cell + static_cast<std::uint32_t>(row) * level.columns();
+      const auto at = [cell](std::int32_t column) { return cell + static_cast<std::uint32_t>(column); };
+      if (has_inner(row)) {
+        if (columns.first < inner_columns.first) visit(at(columns.first), at(inner_columns.first - 1));
+        if (inner_columns.last < columns.last) visit(at(inner_columns.last + 1), at(columns.last));
+      } else {
+        visit(at(columns.first), at(columns.last));
+      }
+    }
+  }
+};
+
+/// Where boxes may overlap `box`.
+inline CellQuery cells_touched(const CellLevel& level, const FloatBox& box) { return {level.x.touched(box.low_x, box.high_x), level.y.touched(box.low_y, box.high_y)}; }
+
+/// Where boxes may have an overlap that changed, of one who was at `before` and is at `now`. Boxes well inside both overlap then and now.
+inline CellQuery cells_changed(const CellLevel& level, const FloatBox& before, const FloatBox& now) {
+  CellQuery query = cells_touched(level, hull_of(before, now));
+  if (level.has_newcomers) return query;
+  query.inner_columns = level.x.within(std::max(before.low_x, now.low_x), std::min(before.high_x, now.high_x));
+  query.inner_rows = level.y.within(std::max(before.low_y, now.low_y), std::min(before.high_y, now.high_y));
+  return query;
+}
 
 }  // namespace rink::im

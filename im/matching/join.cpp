@@ -1,6 +1,8 @@
 // Finds the stretches for a block of probes, then scans them: the first loads of the one hide behind each other, the second runs over what has arrived.
 #include "im/matching/join.h"
 
+#include <array>
+
 namespace rink::im {
 namespace {
 
@@ -13,8 +15,8 @@ void Join::clear() {
   askers_.clear(), found_.clear(), ends_.clear();
 }
 
-template <class Find>
-void Join::add(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge, Scan scan, const Find& find) {
+template <class Index, class Askers, class Find>
+void Join::add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find) {
   const Candidates candidates = index.candidates();
   std::array<Probe, block_size> probes;
   std::array<std::uint32_t, block_size> ends;
@@ -46,9 +48,14 @@ void Join::add_overlaps(const BoxIndex& index, const BoxIndex& askers, const Tie
   add(index, askers, judge, scans_.overlaps, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_overlaps(probe.now, stretches); });
 }
 
-void Join::add_changes(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge) {
+template <class Index, class Askers>
+void Join::add_changes(const Index& index, const Askers& askers, const TieJudge& judge) {
   add(index, askers, judge, scans_.changes, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_changes(probe, stretches); });
 }
+
+template void Join::add_changes(const BoxIndex&, const BoxIndex&, const TieJudge&);
+template void Join::add_changes(const BoxIndex&, const ProbeList&, const TieJudge&);
+template void Join::add_changes(const LiveIndex&, const ProbeList&, const TieJudge&);
 
 std::size_t Join::bytes() const {
   return sizeof(Stretch) * stretches_.capacity() + sizeof(std::uint32_t) * (askers_.capacity() + found_.capacity()) + sizeof(std::size_t) * ends_.capacity();

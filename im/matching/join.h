@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "im/matching/box_index.h"
+#include "im/matching/live_index.h"
+#include "im/matching/probe_list.h"
 
 namespace rink::im {
 
@@ -16,8 +17,9 @@ class Join {
   void clear();
   /// All pairs of `askers` and `index` that overlap now.
   void add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
-  /// All pairs whose overlap before and now differ.
-  void add_changes(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
+  /// All pairs whose overlap before and now differ. Index: BoxIndex or LiveIndex; askers: BoxIndex or ProbeList.
+  template <class Index, class Askers>
+  void add_changes(const Index& index, const Askers& askers, const TieJudge& judge);
 
   std::size_t asker_count() const { return askers_.size(); }
   std::uint32_t asker(std::size_t i) const { return askers_[i]; }
@@ -31,8 +33,8 @@ class Join {
   std::size_t bytes() const;
 
  private:
-  template <class Find>
-  void add(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge, Scan scan, const Find& find);
+  template <class Index, class Askers, class Find>
+  void add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find);
 
   const Scans& scans_;
   std::uint64_t candidate_count_ = 0;

@@ -17,6 +17,13 @@ struct FloatBox {
 /// Farther from everything than any projected rectangle, itself included.
 inline constexpr FloatBox float_nowhere{float_max, float_max, -float_max, -float_max};
 
+/// The smallest box that holds both.
+inline FloatBox hull_of(const FloatBox& a, const FloatBox& b) {
+  return {std::min(a.low_x, b.low_x), std::min(a.low_y, b.low_y), std::max(a.high_x, b.high_x), std::max(a.high_y, b.high_y)};
+}
+
+inline float longer_side(const FloatBox& box) { return std::max(box.high_x - box.low_x, box.high_y - box.low_y); }
+
 /// Projects each coordinate by one function f that never decreases: subtract the origin, bound, round to single precision. Then a <= b implies
 /// f(a) <= f(b), so no overlap is lost, and f(a) < f(b) implies a < b, so an overlap with no tie among the four comparisons is one. Only ties need the exact
 /// test; rounding outward would leave the same pairs in doubt and two roundings to write.

@@ -13,13 +13,16 @@ struct BoxColumns {
   const float *low_x, *low_y, *high_x, *high_y;
 };
 
+inline constexpr std::uint32_t scan_width = 8;
+
 /// What is scanned: `before` is where the boxes were, or the same columns as `now` if all rest.
 struct Candidates {
   BoxColumns before, now;
   const std::uint32_t* ids;
+  std::uint32_t stride = scan_width;  ///< from eight places to the next eight: more where columns are cut into blocks that lie beside each other
 };
 
-/// Places `first` to `end` of the candidates.
+/// Places `first` to `end` of the candidates. Where the stride is not eight, whole blocks.
 struct Stretch {
   std::uint32_t first, end;
 };
@@ -31,11 +34,18 @@ struct Probe {
   std::uint32_t stretches_end;
 };
 
+/// Ids are below; found by `changes` it says that the overlap is now.
+inline constexpr std::uint32_t entered_bit = 0x80000000;
+
+enum class Verdict : std::uint8_t { no, match, entered };
+
 /// Decides pairs whose projections tie. Not needed where all projections are exact: a tie then is an overlap.
 struct TieJudge {
   bool is_needed;
-  bool (*is_match)(const void* context, std::uint32_t probe_id, std::uint32_t candidate_id);
+  Verdict (*judge)(const void* context, std::uint32_t probe_id, std::uint32_t candidate_id);
   const void* context;
+
+  Verdict operator()(std::uint32_t probe_id, std::uint32_t candidate_id) const { return judge(context, probe_id, candidate_id); }
 };
 
 /// Writes to `found` the ids of each probe's matches, in the order of its stretches, and to `ends` where those of each probe end, counted from `found`. `found`
@@ -45,7 +55,7 @@ using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe
 
 struct Scans {
   Scan overlaps;  ///< matches: `now` overlaps `now`
-  Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ
+  Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ; with `entered_bit`
   const char* name;
 };
 

@@ -44,20 +44,33 @@ RINK_AVX2 inline unsigned ties(__m256 clearances) {
 /// The lanes that count in a stretch with `rest` candidates left.
 inline unsigned lanes(std::size_t rest) { return (1u << std::min<std::size_t>(rest, 8)) - 1u; }
 
-/// Asks the judge about each of `doubtful`.
-[[gnu::noinline]] unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, const std::uint32_t* ids) {
+/// Asks the judge about each of `doubtful`; corrects hits and the bits of those who entered.
+[[gnu::noinline]] unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, std::uint32_t* ids) {
   for (; doubtful != 0; doubtful &= doubtful - 1u) {
     const unsigned lane = static_cast<unsigned>(__builtin_ctz(doubtful));
-    hits = (hits & ~(1u << lane)) | static_cast<unsigned>(judge.is_match(judge.context, probe, ids[lane])) << lane;
+    ids[lane] &= ~entered_bit;
+    const Verdict verdict = judge(probe, ids[lane]);
+    hits = (hits & ~(1u << lane)) | static_cast<unsigned>(verdict != Verdict::no) << lane;
+    if (verdict == Verdict::entered) ids[lane] |= entered_bit;
   }
   return hits;
 }
 
+RINK_AVX2 inline __m256i load(const std::uint32_t* ids) { return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)); }
+
+/// The same for ids in a register.
+RINK_AVX2 inline unsigned decide(unsigned hits, unsigned doubtful, const TieJudge& judge, std::uint32_t probe, __m256i& ids) {
+  alignas(32) std::uint32_t lanes[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(lanes), ids);
+  hits = decide(hits, doubtful, judge, probe, lanes);
+  ids = load(lanes);
+  return hits;
+}
+
 /// Writes the ids of `hits`, and rubbish behind them.
-RINK_AVX2 inline std::size_t pack(unsigned hits, const std::uint32_t* ids, std::uint32_t* found) {
+RINK_AVX2 inline std::size_t pack(unsigned hits, __m256i ids, std::uint32_t* found) {
   const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&packings[hits])));
-  const __m256i packed = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), order);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), packed);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(found), _mm256_permutevar8x32_epi32(ids, order));
   return static_cast<std::size_t>(__builtin_popcount(hits));
 }
 
@@ -67,13 +80,14 @@ RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<cons
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += 8) {
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
         const __m256 clearances = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
         unsigned hits = ~static_cast<unsigned>(_mm256_movemask_ps(clearances)) & valid;
+        __m256i ids = load(candidates.ids + i);
         if (judge.is_needed)
-          if (const unsigned doubtful = ties(clearances) & valid) hits = decide(hits, doubtful, judge, probes[p].id, candidates.ids + i);
-        count += pack(hits, candidates.ids + i, found + count);
+          if (const unsigned doubtful = ties(clearances) & valid) hits = decide(hits, doubtful, judge, probes[p].id, ids);
+        count += pack(hits, ids, found + count);
       }
     ends[p] = static_cast<std::uint32_t>(count);
   }
@@ -86,14 +100,17 @@ RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += 8) {
+      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
         const __m256 then = clearance(candidates.before, i, before), today = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
         unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_xor_ps(then, today))) & valid;
-        if (judge.is_needed)
-          if (const unsigned doubtful = (ties(then) | ties(today)) & valid) hits = decide(hits, doubtful, judge, probes[p].id, candidates.ids + i);
+        const unsigned doubtful = judge.is_needed ? (ties(then) | ties(today)) & valid : 0;
         // Most moves change nothing, so this is foreseen.
-        if (hits != 0) count += pack(hits, candidates.ids + i, found + count);
+        if ((hits | doubtful) == 0) continue;
+        const __m256i entered = _mm256_andnot_si256(_mm256_castps_si256(today), _mm256_set1_epi32(static_cast<int>(entered_bit)));
+        __m256i ids = _mm256_or_si256(load(candidates.ids + i), entered);
+        if (doubtful != 0) hits = decide(hits, doubtful, judge, probes[p].id, ids);
+        count += pack(hits, ids, found + count);
       }
     ends[p] = static_cast<std::uint32_t>(count);
   }

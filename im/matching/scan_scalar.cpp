@@ -10,20 +10,28 @@ inline float clearance(const BoxColumns& boxes, std::size_t i, const FloatBox& p
   return std::min(x, y);
 }
 
-template <class Match>
+/// What a pair comes to; `is_tie` if that is in doubt.
+struct Outcome {
+  bool is_match, is_entered, is_tie;
+};
+
+template <class Compare>
 std::size_t scan(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found, std::uint32_t* ends,
-                 const Match& match) {
+                 const Compare& compare) {
   std::size_t count = 0, stretch = 0;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const Probe probe = probes[p];
     for (; stretch < probe.stretches_end; ++stretch)
-      for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; ++i) {
-        bool is_tie = false;
-        bool is_match = match(i, probe, is_tie);
-        if (judge.is_needed && is_tie) is_match = judge.is_match(judge.context, probe.id, candidates.ids[i]);
-        found[count] = candidates.ids[i];
-        count += is_match;
-      }
+      for (std::size_t eight = stretches[stretch].first; eight < stretches[stretch].end; eight += candidates.stride)
+        for (std::size_t i = eight; i < std::min<std::size_t>(eight + scan_width, stretches[stretch].end); ++i) {
+          Outcome outcome = compare(i, probe);
+          if (judge.is_needed && outcome.is_tie) {
+            const Verdict verdict = judge(probe.id, candidates.ids[i]);
+            outcome = {verdict != Verdict::no, verdict == Verdict::entered, false};
+          }
+          found[count] = candidates.ids[i] | (outcome.is_entered ? entered_bit : 0u);
+          count += outcome.is_match;
+        }
     ends[p] = static_cast<std::uint32_t>(count);
   }
   return count;
@@ -31,19 +39,17 @@ std::size_t scan(const Candidates& candidates, std::span<const Probe> probes, co
 
 std::size_t scan_overlaps(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                           std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe, bool& is_tie) {
+  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
     const float now = clearance(candidates.now, i, probe.now);
-    is_tie = now == 0.0f;
-    return now >= 0.0f;
+    return Outcome{now >= 0.0f, false, now == 0.0f};
   });
 }
 
 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                          std::uint32_t* ends) {
-  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe, bool& is_tie) {
+  return scan(candidates, probes, stretches, judge, found, ends, [&](std::size_t i, const Probe& probe) {
     const float before = clearance(candidates.before, i, probe.before), now = clearance(candidates.now, i, probe.now);
-    is_tie = (before == 0.0f) | (now == 0.0f);
-    return (before >= 0.0f) != (now >= 0.0f);
+    return Outcome{(before >= 0.0f) != (now >= 0.0f), now >= 0.0f, before == 0.0f || now == 0.0f};
   });
 }
 

@@ -24,6 +24,7 @@ void SizeLevels::choose() {
   size_ = 0;
   std::size_t top = 0;  // bucket of the largest boxes of the present level
   for (std::size_t bucket = counts_.size(); bucket-- > 0;) {
+    level_of_[bucket] = static_cast<std::uint8_t>(size_ == 0 ? 0 : size_ - 1);
     if (counts_[bucket] == 0) continue;
     if (size_ == 0 || (bucket + octaves_per_level <= top && size_ < level_max)) {
       close_level();
@@ -34,6 +35,7 @@ void SizeLevels::choose() {
     populations_[size_ - 1] += counts_[bucket];
   }
   close_level();
+  if (size_ == 0) populations_[size_++] = 0;
 }
 
 }  // namespace rink::im

@@ -15,6 +15,7 @@ class SizeLevels {
   void clear() { counts_.fill(0); }
   void count(float side) { ++counts_[bucket(side)]; }
   /// Levels from the largest boxes down, each of a factor of at most eight (the last of all below); a level with few boxes joins the one above it.
+  /// There is at least one level, and every side has one, counted or not.
   void choose();
 
   std::size_t size() const { return size_; }

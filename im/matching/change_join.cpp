@@ -1,0 +1,152 @@
+// Chooses between binning everyone and asking on behalf of the movers, and does either.
+#include "im/matching/change_join.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace rink::im {
+namespace {
+
+/// With more movers than this part of all, binning everyone costs less than asking for each.
+constexpr std::size_t few_means_one_in = 6;
+/// With more subscribers than this their order in space decides how often a line of memory is fetched twice.
+constexpr std::size_t unordered_subscriber_max = 4096;
+/// How many motions ahead memory is asked for.
+constexpr std::size_t stage_ahead = 16;
+
+struct Exact {
+  const RegionHistory &askers, &asked;
+};
+
+Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t asked) {
+  const auto& exact = *static_cast<const Exact*>(context);
+  const Motion &a = exact.askers[asker], &b = exact.asked[asked];
+  const bool is_in = overlap(a.now, b.now);
+  if (is_in == overlap(a.before, b.before)) return Verdict::no;
+  return is_in ? Verdict::entered : Verdict::match;
+}
+
+/// Empty lanes tie with a box as large as numbers go. Those who moved as well are met elsewhere.
+Verdict judge_resting(const void* context, std::uint32_t asker, std::uint32_t asked) {
+  const auto& exact = *static_cast<const Exact*>(context);
+  return asked == LiveIndex::nobody || exact.asked.has_moved(asked) ? Verdict::no : judge_moved(context, asker, asked);
+}
+
+/// Grows a side that is none.
+Region with_area(Region world) {
+  const auto widen = [](double& low, double& high) {
+    if (high - low >= 1e-300 && high - low <= 1e300) return;
+    const double middle = std::clamp(0.5 * low + 0.5 * high, -1e300, 1e300), half = std::max(0.5, 1e-9 * std::abs(middle));
+    low = middle - half, high = middle + half;
+  };
+  widen(world.low_x, world.high_x), widen(world.low_y, world.high_y);
+  return world;
+}
+
+}  // namespace
+
+ChangeJoin::ChangeJoin(const Region& world, Instructions instructions) : world_(with_area(world)), join_(instructions) {}
+
+std::span<const Change> ChangeJoin::find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
+                                         std::span<const std::uint32_t> moved_subscribers) {
+  changes_.clear();
+  const std::size_t moved = moved_entities.size() + moved_subscribers.size();
+  if (moved == 0) return {};
+  const Side entity_side{entities, moved_entities, entities_}, subscriber_side{subscribers, moved_subscribers, subscribers_};
+  if (moved * few_means_one_in > entities.size() + subscribers.size()) join_everyone(entity_side, subscriber_side);
+  else join_movers(entity_side, subscriber_side);
+  return changes_.ordered(subscribers.size());
+}
+
+/// Stages all of `side`, in the order in which they lay in space at the last time if that is known: then sorting them moves little.
+void ChangeJoin::stage(const Side& side, BoxIndex& index) {
+  index.begin(world_, side.regions.size(), true);
+  Standing& standing = side.standing;
+  if (!standing.is_ordered) {
+    for (std::uint32_t id = 0; id < side.regions.size(); ++id)
+      if (!is_nowhere(side.regions[id].now)) index.stage(id, side.regions[id]);
+    return;
+  }
+  const std::span<const std::uint32_t> order = standing.order.span();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + stage_ahead < order.size()) side.regions.prefetch(order[i + stage_ahead]);
+    if (!is_nowhere(side.regions[order[i]].before)) index.stage(order[i], side.regions[order[i]]);
+  }
+  for (const std::uint32_t id : side.moved)
+    if (is_nowhere(side.regions[id].before)) index.stage(id, side.regions[id]);
+}
+
+void ChangeJoin::build(const Side& side, BoxIndex& index) {
+  index.build();
+  side.standing.order.resize(index.size());
+  std::copy(index.ids().begin(), index.ids().end(), side.standing.order.data());
+  side.standing.is_ordered = true;
+}
+
+void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
+  stage(entities, swept_entities_);
+  build(entities, swept_entities_);
+  probes_.begin(world_);
+  if (subscribers.regions.size() > unordered_subscriber_max) {
+    stage(subscribers, swept_subscribers_);
+    build(subscribers, swept_subscribers_);
+    join(swept_entities_, swept_subscribers_, entities, subscribers);
+  } else {
+    for (std::uint32_t id = 0; id < subscribers.regions.size(); ++id)
+      if (!is_nowhere(subscribers.regions[id].now)) probes_.add(id, subscribers.regions[id]);
+    join(swept_entities_, probes_, entities, subscribers);
+  }
+  changes_.add_by_subscriber(join_);
+  for (const Side* side : {&entities, &subscribers}) side->standing.is_live = side->standing.is_live && side->moved.empty();
+}
+
+template <class Askers>
+void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers) {
+  const Exact exact{subscribers.regions, entities.regions};
+  join_.clear();
+  join_.add_changes(asked, askers, {!(asked.is_exact() && askers.is_exact()), judge_moved, &exact});
+  pairs_tested_ += join_.candidate_count();
+}
+
+/// Asks those of the other side that rest; those that moved may be found too, where they were.
+void ChangeJoin::ask_resting(const Side& askers, const Side& asked) {
+  LiveIndex& live = asked.standing.live;
+  if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions);
+  asked.standing.is_live = true;
+  probes_.begin(world_);
+  for (const std::uint32_t id : askers.moved) probes_.add(id, askers.regions[id]);
+  const Exact exact{askers.regions, asked.regions};
+  join_.clear();
+  join_.add_changes(live, probes_, {!(probes_.is_exact() && live.is_exact()), judge_resting, &exact});
+  pairs_tested_ += join_.candidate_count();
+}
+
+void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
+  if (!entities.moved.empty()) {
+    ask_resting(entities, subscribers);
+    changes_.add_by_entity(join_, subscribers.regions);
+  }
+  if (!subscribers.moved.empty()) {
+    ask_resting(subscribers, entities);
+    changes_.add_by_subscriber(join_, entities.regions);
+  }
+  if (!entities.moved.empty() && !subscribers.moved.empty()) {
+    swept_entities_.begin(world_, entities.moved.size(), true);
+    for (const std::uint32_t id : entities.moved) swept_entities_.stage(id, entities.regions[id]);
+    swept_entities_.build();
+    join(swept_entities_, probes_, entities, subscribers);  // the probes are the moved subscribers already
+    changes_.add_by_subscriber(join_);
+  }
+  for (const Side* side : {&entities, &subscribers}) {
+    if (side->standing.is_live) side->standing.live.put(side->moved, side->regions);
+    const auto is_newcomer = [&](std::uint32_t id) { return is_nowhere(side->regions[id].before); };
+    side->standing.is_ordered = side->standing.is_ordered && std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
+  }
+}
+
+std::size_t ChangeJoin::bytes() const {
+  return entities_.bytes() + subscribers_.bytes() + swept_entities_.bytes() + swept_subscribers_.bytes() + probes_.bytes() + join_.bytes() + changes_.bytes();
+}
+
+}  // namespace rink::im

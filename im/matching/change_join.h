@@ -1,0 +1,64 @@
+// Net changes of overlap between two sets of moving boxes: the one matching engine behind all schemes that are overlap of rectangles.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "im/matching/box_index.h"
+#include "im/matching/change_list.h"
+#include "im/matching/join.h"
+#include "im/matching/live_index.h"
+#include "im/region_history.h"
+
+namespace rink::im {
+
+/// Keeps no pairs: a pair has changed if its overlap before and now differ, so both places are looked at at once. Two ways, the same result:
+/// when many moved, all boxes are binned anew by the hull of their two places and joined; when few did, those ask the resting ones of the other side, which
+/// are kept in place, and are joined among themselves.
+class ChangeJoin {
+ public:
+  explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best);
+
+  /// Every change, ordered by (subscriber, entity); `moved_...` are those whose place now is not the one before, ascending. Valid until the next call.
+  std::span<const Change> find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
+                               std::span<const std::uint32_t> moved_subscribers);
+
+  void forget_entity(std::uint32_t entity) { entities_.live.remove(entity); }
+  void forget_subscriber(std::uint32_t subscriber) { subscribers_.live.remove(subscriber); }
+
+  std::uint64_t pairs_tested() const { return pairs_tested_; }
+  std::size_t bytes() const;
+
+ private:
+  /// What is kept of a set from match to match.
+  struct Standing {
+    LiveIndex live;
+    bool is_live = false;         // the index agrees with where all were before
+    Buffer<std::uint32_t> order;  // of ids in space when everyone was last joined
+    bool is_ordered = false;      // all who were somewhere before are in it
+    std::size_t bytes() const { return live.bytes() + sizeof(std::uint32_t) * order.capacity(); }
+  };
+  /// One of the two sets, at this match.
+  struct Side {
+    const RegionHistory& regions;
+    std::span<const std::uint32_t> moved;
+    Standing& standing;
+  };
+  void join_everyone(const Side& entities, const Side& subscribers);
+  void join_movers(const Side& entities, const Side& subscribers);
+  void stage(const Side& side, BoxIndex& index);
+  void build(const Side& side, BoxIndex& index);
+  void ask_resting(const Side& askers, const Side& asked);
+  template <class Askers>
+  void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
+
+  Region world_;
+  Standing entities_, subscribers_;
+  BoxIndex swept_entities_, swept_subscribers_;
+  ProbeList probes_;
+  Join join_;
+  ChangeList changes_;
+  std::uint64_t pairs_tested_ = 0;
+};
+
+}  // namespace rink::im

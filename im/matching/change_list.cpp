@@ -1,0 +1,69 @@
+// Orders changes by counting sort over subscribers, few of them by comparison.
+#include "im/matching/change_list.h"
+
+#include <algorithm>
+
+namespace rink::im {
+namespace {
+
+/// The last bit is the transition: a pair is there once, so it does not decide the order.
+std::uint64_t key(std::uint32_t subscriber, std::uint32_t entity, bool is_entered) { return std::uint64_t{subscriber} << 32 | entity << 1 | (is_entered ? 1u : 0u); }
+
+Change change(std::uint64_t key) {
+  return {static_cast<Subscriber>(key >> 32), static_cast<Entity>(key) >> 1, (key & 1u) != 0 ? Transition::entered : Transition::left};
+}
+
+/// Runs are short.
+void sort_run(std::uint64_t* first, std::uint64_t* end) {
+  if (end - first > 32) return std::sort(first, end);
+  for (std::uint64_t* i = first + 1; i < end; ++i) {
+    const std::uint64_t value = *i;
+    std::uint64_t* place = i;
+    for (; place > first && place[-1] > value; --place) *place = place[-1];
+    *place = value;
+  }
+}
+
+}  // namespace
+
+void ChangeList::add_by_subscriber(const Join& join) {
+  std::size_t count = keys_.size();
+  keys_.resize(count + join.found_count());
+  for (std::size_t i = 0; i < join.asker_count(); ++i)
+    for (const std::uint32_t found : join.found(i)) keys_[count++] = key(join.asker(i), found & ~entered_bit, (found & entered_bit) != 0);
+}
+
+void ChangeList::add_by_subscriber(const Join& join, const RegionHistory& entities) {
+  for (std::size_t i = 0; i < join.asker_count(); ++i)
+    for (const std::uint32_t found : join.found(i))
+      if (const Entity entity = found & ~entered_bit; !entities.has_moved(entity)) keys_.push_back(key(join.asker(i), entity, (found & entered_bit) != 0));
+}
+
+void ChangeList::add_by_entity(const Join& join, const RegionHistory& subscribers) {
+  for (std::size_t i = 0; i < join.asker_count(); ++i)
+    for (const std::uint32_t found : join.found(i))
+      if (const Subscriber subscriber = found & ~entered_bit; !subscribers.has_moved(subscriber)) keys_.push_back(key(subscriber, join.asker(i), (found & entered_bit) != 0));
+}
+
+void ChangeList::sort(std::size_t subscriber_count) {
+  if (std::is_sorted(keys_.data(), keys_.data() + keys_.size())) return;
+  // Below this, going over all subscribers takes longer than comparing.
+  if (keys_.size() * 8 < subscriber_count || keys_.size() < 64) return std::sort(keys_.data(), keys_.data() + keys_.size());
+  starts_.fill(subscriber_count + 1, 0);
+  for (const std::uint64_t key : keys_.span()) ++starts_[key >> 32];
+  std::uint32_t end = 0;
+  for (std::size_t i = 0; i <= subscriber_count; ++i) starts_[i] = end += starts_[i];
+  sorted_.resize(keys_.size());
+  for (const std::uint64_t key : keys_.span()) sorted_[--starts_[key >> 32]] = key;
+  for (std::size_t i = 0; i < subscriber_count; ++i) sort_run(sorted_.data() + starts_[i], sorted_.data() + starts_[i + 1]);
+  std::swap(keys_, sorted_);
+}
+
+std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
+  sort(subscriber_count);
+  changes_.resize(keys_.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i) changes_[i] = change(keys_[i]);
+  return changes_.span();
+}
+
+}  // namespace rink::im

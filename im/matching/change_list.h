@@ -1,0 +1,36 @@
+// Pairs whose interest changed, gathered in any order and given out by (subscriber, entity).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "im/filter.h"
+#include "im/matching/buffer.h"
+#include "im/matching/join.h"
+#include "im/region_history.h"
+
+namespace rink::im {
+
+class ChangeList {
+ public:
+  void clear() { keys_.clear(); }
+  /// All that subscribers found among entities.
+  void add_by_subscriber(const Join& join);
+  /// The same, but for entities that moved.
+  void add_by_subscriber(const Join& join, const RegionHistory& entities);
+  /// All that entities found among subscribers, but for those that moved.
+  void add_by_entity(const Join& join, const RegionHistory& subscribers);
+  /// Orders the changes, of pairs none of which is doubled, of subscribers below `subscriber_count`. Valid until the next call.
+  std::span<const Change> ordered(std::size_t subscriber_count);
+
+  std::size_t bytes() const { return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) + sizeof(std::uint32_t) * starts_.capacity() + sizeof(Change) * changes_.capacity(); }
+
+ private:
+  void sort(std::size_t subscriber_count);
+
+  Buffer<std::uint64_t> keys_, sorted_;  // subscriber, entity, entered
+  Buffer<std::uint32_t> starts_;
+  Buffer<Change> changes_;
+};
+
+}  // namespace rink::im

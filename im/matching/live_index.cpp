@@ -1,0 +1,183 @@
+// Keeps boxes in blocks of lanes, cell by cell.
+#include "im/matching/live_index.h"
+
+#include <cassert>
+
+namespace rink::im {
+namespace {
+
+/// Half of the lanes are in use, so that few cells overflow.
+constexpr CellShape shape{4.0, 1.0, 0.5};
+
+/// How many movers ahead memory is asked for.
+constexpr std::size_t ahead = 8;
+
+}  // namespace
+
+void LiveIndex::build(const Region& world, const RegionHistory& regions) {
+  projection_ = Projection(world.low_x, world.low_y);
+  is_built_ = is_exact_ = true;
+  has_grown_ = false;
+  sizes_.clear();
+  staged_.clear(), staged_ids_.clear(), free_.clear();
+  staged_.reserve(regions.size()), staged_ids_.reserve(regions.size());
+  for (std::uint32_t id = 0; id < regions.size(); ++id) {
+    if (is_nowhere(regions[id].now) || regions.has_moved(id)) continue;
+    const FloatBox box = projection_(regions[id].now);
+    is_exact_ = is_exact_ && projection_.is_exact(regions[id].now, box);
+    sizes_.count(longer_side(box));
+    staged_.push_back(box);
+    staged_ids_.push_back(id);
+  }
+  levels_.choose(sizes_, staged_.span(), world, shape);
+  for (const FloatBox& box : staged_.span()) levels_.of(sizes_, box).widen(box);
+  place_of_.fill(regions.size(), none);
+  blocks_.clear();
+  add_blocks(levels_.cell_count());
+  for (std::size_t i = 0; i < staged_.size(); ++i) insert(levels_.of(sizes_, staged_[i]).cell(staged_[i].low_x, staged_[i].low_y), staged_ids_[i], staged_[i]);
+  size_ = built_size_ = staged_.size();
+}
+
+FloatBox LiveIndex::box(std::uint32_t place) const {
+  const Block& block = blocks_[place / lanes];
+  const std::uint32_t lane = place % lanes;
+  return {block.low_x[lane], block.low_y[lane], block.high_x[lane], block.high_y[lane]};
+}
+
+void LiveIndex::set(std::uint32_t place, const FloatBox& box) {
+  Block& block = blocks_[place / lanes];
+  const std::uint32_t lane = place % lanes;
+  block.low_x[lane] = box.low_x, block.low_y[lane] = box.low_y, block.high_x[lane] = box.high_x, block.high_y[lane] = box.high_y;
+}
+
+void LiveIndex::set(std::uint32_t place, std::uint32_t id, const FloatBox& box) {
+  set(place, box);
+  blocks_[place / lanes].ids[place % lanes] = id;
+  place_of_[id] = place;
+}
+
+void LiveIndex::add_blocks(std::uint32_t count) {
+  const std::size_t first = blocks_.size();
+  assert(first + count < none / stride);  // places and stretches are counted in 32 bits
+  blocks_.resize(first + count);
+  for (std::size_t block = first; block < first + count; ++block) empty(static_cast<std::uint32_t>(block));
+}
+
+void LiveIndex::empty(std::uint32_t block) {
+  for (std::uint32_t place = block * lanes; place < (block + 1) * lanes; ++place) {
+    set(place, float_nowhere);
+    blocks_[block].ids[place % lanes] = nobody;
+  }
+  blocks_[block].next = blocks_[block].count = 0;
+  blocks_[block].cell = block;
+}
+
+/// An empty one that belongs to no cell.
+std::uint32_t LiveIndex::take_block() {
+  if (free_.empty()) {
+    add_blocks(1);
+    return static_cast<std::uint32_t>(blocks_.size() - 1);
+  }
+  const std::uint32_t block = free_[free_.size() - 1];
+  free_.resize(free_.size() - 1);
+  return block;
+}
+
+/// Moves a full block's boxes and what hangs on it to another place of the same cell.
+void LiveIndex::move_all(std::uint32_t from, std::uint32_t to) {
+  blocks_[to] = blocks_[from];
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) place_of_[blocks_[to].ids[lane]] = to * lanes + lane;
+  empty(from);
+}
+
+void LiveIndex::insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box) {
+  if (blocks_[cell].count == lanes) {
+    const std::uint32_t block = take_block();
+    move_all(cell, block);
+    blocks_[cell].next = block;
+  }
+  set(cell * lanes + blocks_[cell].count++, id, box);
+}
+
+/// Widens the level to hold the box.
+std::uint32_t LiveIndex::cell_for(const FloatBox& box) {
+  CellLevel& level = levels_.of(sizes_, box);
+  // Wider boxes make every question wider; a level is meant to hold sides within a factor of eight.
+  has_grown_ |= longer_side(box) > 2.0f * std::max(level.x.widest, level.y.widest);
+  level.widen(box);
+  return level.cell(box.low_x, box.low_y);
+}
+
+void LiveIndex::put(std::uint32_t id, const Region& region) {
+  const FloatBox box = projection_(region);
+  is_exact_ = is_exact_ && projection_.is_exact(region, box);
+  const std::uint32_t cell = cell_for(box);
+  if (holds(id)) {
+    if (blocks_[place_of_[id] / lanes].cell == cell) return set(place_of_[id], box);
+    remove(id);
+  }
+  while (place_of_.size() <= id) place_of_.push_back(none);
+  insert(cell, id, box);
+  ++size_;
+}
+
+void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& regions) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i + 2 * ahead < ids.size() && ids[i + 2 * ahead] < place_of_.size()) __builtin_prefetch(&place_of_[ids[i + 2 * ahead]]);
+    if (i + ahead < ids.size()) {
+      const std::uint32_t next = ids[i + ahead];
+      regions.prefetch(next);
+      if (holds(next))
+        for (std::uint32_t part = 0; part < sizeof(Block); part += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[place_of_[next] / lanes]) + part, 1);
+    }
+    put(ids[i], regions[ids[i]].now);
+  }
+}
+
+void LiveIndex::remove(std::uint32_t id) {
+  if (!holds(id)) return;
+  const std::uint32_t cell = blocks_[place_of_[id] / lanes].cell;
+  if (blocks_[cell].count == 0) {
+    const std::uint32_t next = blocks_[cell].next;
+    move_all(next, cell);
+    free_.push_back(next);
+  }
+  const std::uint32_t place = place_of_[id], last = cell * lanes + --blocks_[cell].count;
+  if (place != last) set(place, blocks_[cell].ids[last % lanes], box(last));
+  set(last, float_nowhere);
+  blocks_[cell].ids[last % lanes] = nobody;
+  place_of_[id] = none;
+  --size_;
+}
+
+bool LiveIndex::is_outgrown() const { return !is_built_ || has_grown_ || size_ > 2 * built_size_ + 64; }
+
+Candidates LiveIndex::candidates() const {
+  const Block& first = blocks_[0];
+  const BoxColumns columns{first.low_x, first.low_y, first.high_x, first.high_y};
+  return {columns, columns, first.ids, stride};
+}
+
+std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
+  std::size_t candidates = 0;
+  for (const CellLevel& level : levels_)
+    cells_changed(level, probe.before, probe.now).for_each_run(level, [&](std::uint32_t first, std::uint32_t last) {
+      stretches.push_back({first * stride, (last + 1) * stride});
+      for (std::uint32_t cell = first; cell <= last; ++cell) {
+        const Block& block = blocks_[cell];
+        __builtin_prefetch(block.low_x), __builtin_prefetch(block.high_x);
+        candidates += block.count;
+        for (std::uint32_t next = block.next; next != 0; next = blocks_[next].next) {
+          stretches.push_back({next * stride, (next + 1) * stride});
+          candidates += lanes;
+        }
+      }
+    });
+  return candidates;
+}
+
+std::size_t LiveIndex::bytes() const {
+  return sizeof(Block) * blocks_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (free_.capacity() + place_of_.capacity() + staged_ids_.capacity());
+}
+
+}  // namespace rink::im

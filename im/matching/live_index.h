@@ -1,0 +1,73 @@
+// Boxes at rest, each stored once in its cell, where few of them move at a time: they are put elsewhere in place and nothing else is touched.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "im/matching/buffer.h"
+#include "im/matching/cell_level.h"
+#include "im/matching/probe_list.h"
+#include "im/matching/scan.h"
+#include "im/region_history.h"
+
+namespace rink::im {
+
+/// Every cell has a block of eight lanes, three lines of memory, adjacent cells adjacent ones; so a row of cells is one stretch to scan. What does not fit is in
+/// further blocks, all full, that hang on the first. Empty lanes hold nowhere. About 60 bytes per box where boxes are spread evenly.
+class LiveIndex {
+ public:
+  /// Never the id of a box: an empty lane's.
+  static constexpr std::uint32_t nobody = RegionHistory::id_max;
+
+  /// Starts anew with those of `regions` that are somewhere now and have not moved.
+  void build(const Region& world, const RegionHistory& regions);
+  /// Adds or moves boxes to where they are now.
+  void put(std::span<const std::uint32_t> ids, const RegionHistory& regions);
+  void remove(std::uint32_t id);
+
+  /// True if it was never built, or so much came or grew since that it is worth building anew.
+  bool is_outgrown() const;
+  bool is_exact() const { return is_exact_; }
+  Candidates candidates() const;
+  /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes those are.
+  std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::uint32_t lanes = scan_width, none = 0xFFFFFFFF;
+
+  struct alignas(64) Block {
+    float low_x[lanes], low_y[lanes], high_x[lanes], high_y[lanes];
+    std::uint32_t ids[lanes];
+    std::uint32_t next;   // of the same cell; 0: none, for that is the first of a cell
+    std::uint32_t count;  // of boxes, in the first lanes
+    std::uint32_t cell;
+  };
+  static_assert(sizeof(Block) == 192);
+  static constexpr std::uint32_t stride = sizeof(Block) / sizeof(float);
+
+  FloatBox box(std::uint32_t place) const;
+  void set(std::uint32_t place, const FloatBox& box);
+  void set(std::uint32_t place, std::uint32_t id, const FloatBox& box);
+  void add_blocks(std::uint32_t count);
+  std::uint32_t take_block();
+  void empty(std::uint32_t block);
+  void move_all(std::uint32_t from, std::uint32_t to);
+  void insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box);
+  void put(std::uint32_t id, const Region& region);
+  std::uint32_t cell_for(const FloatBox& box);
+  bool holds(std::uint32_t id) const { return id < place_of_.size() && place_of_[id] != none; }
+
+  Projection projection_;
+  bool is_built_ = false, is_exact_ = true, has_grown_ = false;
+  std::size_t size_ = 0, built_size_ = 0;
+  SizeLevels sizes_;
+  CellLevels levels_;
+  Buffer<FloatBox> staged_;
+  Buffer<std::uint32_t> staged_ids_;
+  Buffer<Block> blocks_;            // those of the cells first
+  Buffer<std::uint32_t> free_;      // blocks
+  Buffer<std::uint32_t> place_of_;  // of an id: block * lanes + lane
+};
+
+}  // namespace rink::im

@@ -1,0 +1,50 @@
+// Moved boxes that ask an index, in an order of the caller's.
+#pragma once
+
+#include "im/matching/buffer.h"
+#include "im/matching/projection.h"
+#include "im/matching/scan.h"
+#include "im/region_history.h"
+
+namespace rink::im {
+
+/// A motion with both its places projected; `before` may be nowhere.
+struct ProjectedMotion {
+  FloatBox before, now;
+  bool is_newcomer, is_exact;
+};
+
+inline ProjectedMotion project(const Projection& projection, const Motion& motion) {
+  ProjectedMotion projected{float_nowhere, projection(motion.now), is_nowhere(motion.before), false};
+  projected.is_exact = projection.is_exact(motion.now, projected.now);
+  if (projected.is_newcomer) return projected;
+  projected.before = projection(motion.before);
+  projected.is_exact &= projection.is_exact(motion.before, projected.before);
+  return projected;
+}
+
+class ProbeList {
+ public:
+  void begin(const Region& world) {
+    projection_ = Projection(world.low_x, world.low_y);
+    is_exact_ = true;
+    probes_.clear();
+  }
+  void add(std::uint32_t id, const Motion& motion) {
+    const ProjectedMotion projected = project(projection_, motion);
+    is_exact_ &= projected.is_exact;
+    probes_.push_back({projected.before, projected.now, id, 0});
+  }
+
+  std::size_t size() const { return probes_.size(); }
+  const Probe& probe(std::size_t i) const { return probes_[i]; }
+  bool is_exact() const { return is_exact_; }
+  std::size_t bytes() const { return sizeof(Probe) * probes_.capacity(); }
+
+ private:
+  Projection projection_;
+  bool is_exact_ = true;
+  Buffer<Probe> probes_;
+};
+
+}  // namespace rink::im
