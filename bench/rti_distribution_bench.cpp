@@ -43,7 +43,7 @@ class Field {
     }
     for (std::uint32_t federate = 1; federate <= subscribers; ++federate) {
       distribution_.create_region(federate, {0}, set);
-      distribution_.subscribe(federate, entity, position, {0});
+      distribution_.subscribe(federate, entity, {position, position}, {0});
       views_.push_back(ranges(7919 * federate, 0.0, seen));
       distribution_.modify_region(federate, {0}, views_.back());
     }

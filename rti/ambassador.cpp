@@ -10,53 +10,19 @@
 namespace rink::rti {
 
 Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
-    : fom_(fom),
+    : FomLookup(fom),
       queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
       callbacks_(queue_ ? *queue_ : callbacks),
       patience_(patience),
       regions_(fom),
-      published_(fom.object_classes().size()),
+      declared_(fom),
       outgoing_(frame_max_to_rti),
       arrivals_(fom) {}
 
-void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
-  if (object_class.value >= published_.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
-  if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "of class " + fom_.at(object_class).name);
-  withdraw_publication(object_class, published_[object_class.value].without(attributes), attributes.is_empty());
-  published_[object_class.value] = attributes;
-  say(PublishObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits});
-}
-
-void Ambassador::unpublish_object_class(ObjectClassHandle object_class) { publish_object_class_attributes(object_class, {}); }
-
-void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
-  assert(fom_.attributes(object_class).includes(attributes));
-  const std::uint32_t number = region ? regions_.check(region) : RegionHandle::none;
-  if (region) regions_.replace_subscription(object_class, attributes, region);
-  say(SubscribeObjectClassMessage{static_cast<std::uint16_t>(object_class.value), attributes.bits, number});
-}
-
-void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
-  subscribe_object_class_attributes(object_class, {}, region);
-}
-
-void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) {
-  say(PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 1});
-}
-void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) {
-  say(PublishInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 0});
-}
-void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_class) {
-  say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 1});
-}
-void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
-  say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), 0});
-}
-
 ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class, std::string_view name) {
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
-  if (object_class.value >= published_.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
-  if (published_[object_class.value].is_empty()) throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
+  if (object_class.value >= declared_.objects.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
+  if (declared_.objects[object_class.value].published.is_empty()) throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
   if (objects_registered_ == object_block) return {};
   const ObjectHandle object{object_block_ * object_block + objects_registered_++};
   own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
@@ -68,10 +34,12 @@ void Ambassador::delete_object_instance(ObjectHandle object) {
   const KnownObject& known = known_or_throw(object, {});
   if (!owned_of(object, known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value));
   forget(object);
+  if (!is_ours(object)) gone_.push_back({object});
   say(DeleteObjectMessage{object.value});
 }
 
 void Ambassador::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+  declared_.note_sent(object_class, attributes, stamp);
   if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp) say(StampMessage{stamp});
   said_stamp_ = stamp;
   stamped_frame_ = outgoing_.frame_count();
@@ -86,11 +54,16 @@ void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attri
   if (phase_ != Phase::joined || known == nullptr || !known->is_own) check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
   assert(fom_.values_fit(object_class, attributes, values));
+  if (declared_.is_special(object_class, attributes) && spare(object, *known, attributes, values, stamp)) return;
   if (is_coded(fom_.at(object_class), attributes)) {
     coded_.clear();
     encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
     values = coded_;
   }
+  say_update(object, object_class, attributes, values, stamp);
+}
+
+void Ambassador::say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   assert(values.size() <= values_max);
   // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
   constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
@@ -115,6 +88,7 @@ void Ambassador::send_interaction(InteractionClassHandle interaction_class, Byte
 
 void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp) {
   assert(phase_ == Phase::joined && interaction_class.value < fom_.interaction_classes().size());
+  if (spares_interaction(interaction_class)) return;
   say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp, parameters});
   ++counters_.interactions_sent;
 }
@@ -148,11 +122,12 @@ void Ambassador::advance_clock(double now) {
 void Ambassador::forget(ObjectHandle object) {
   holdings_.erase(object);
   regions_.forget(object);
+  declared_.spared.forget(object);
   if (is_ours(object)) own_[object.value % object_block] = {};
   else known_.erase(object);
 }
 
-Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
+KnownObject* Ambassador::find(ObjectHandle object) {
   if (!is_ours(object)) {
     KnownObject* known = known_.find(object);
     return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;  // else it is being deleted by us
@@ -164,9 +139,9 @@ Ambassador::KnownObject* Ambassador::find(ObjectHandle object) {
 
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
-  const std::size_t ownership = published_.capacity() * sizeof published_[0] + holdings_.memory_bytes();
-  return waiting + ownership + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
-         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes();
+  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
+         region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
+         declared_.memory_bytes();
 }
 
 }  // namespace rink::rti

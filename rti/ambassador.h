@@ -16,11 +16,13 @@
 #include "rti/callbacks/callback_queue.h"
 #include "rti/federate_ambassador.h"
 #include "rti/distribution/region_book.h"
-#include "rti/fom/fom.h"
+#include "rti/fom/fom_lookup.h"
 #include "rti/hla_error.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
 #include "rti/objects/arrival_order.h"
+#include "rti/objects/declared_state.h"
+#include "rti/objects/known_object.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
@@ -34,12 +36,10 @@ struct DeltaHeader;
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
 /// Services assert on the programmer's mistakes (an object of somebody else, an undeclared class).
-class Ambassador {
+class Ambassador : public FomLookup {
  public:
   /// Both must outlive the ambassador.
   Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {}, CallbackModel model = CallbackModel::immediate);
-
-  const Fom& fom() const { return fom_; }
 
   /// Federation management. These three ask the host, before the join; answered by `federation_execution_created`, `…_destroyed` and
   /// `report_federation_executions`. The new execution has this ambassador's object model, which the host must offer. Throw FederateAlreadyExecutionMember.
@@ -65,13 +65,22 @@ class Ambassador {
   /// Declaration management. A later call for the same class (and region) replaces the earlier one.
   void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
   void unpublish_object_class(ObjectClassHandle object_class);
-  /// Without a region: the default region, that is everything.
-  void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region = {});
+  /// Without a region: the default region, that is everything. Who subscribes passively hears as much, but counts for no advisory.
+  void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region = {}, bool is_active = true);
   void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {});
   void publish_interaction_class(InteractionClassHandle interaction_class);
   void unpublish_interaction_class(InteractionClassHandle interaction_class);
-  void subscribe_interaction_class(InteractionClassHandle interaction_class);
+  void subscribe_interaction_class(InteractionClassHandle interaction_class, bool is_active = true);
   void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
+  /// Advisory switches (10.27 to 10.34), all on at first but that of attribute relevance; what is so already throws.
+  void enable_object_class_relevance_advisory_switch() { switch_advisory(Advisory::object_class_relevance, true); }
+  void disable_object_class_relevance_advisory_switch() { switch_advisory(Advisory::object_class_relevance, false); }
+  void enable_attribute_relevance_advisory_switch() { switch_advisory(Advisory::attribute_relevance, true); }
+  void disable_attribute_relevance_advisory_switch() { switch_advisory(Advisory::attribute_relevance, false); }
+  void enable_attribute_scope_advisory_switch() { switch_advisory(Advisory::attribute_scope, true); }
+  void disable_attribute_scope_advisory_switch() { switch_advisory(Advisory::attribute_scope, false); }
+  void enable_interaction_relevance_advisory_switch() { switch_advisory(Advisory::interaction_relevance, true); }
+  void disable_interaction_relevance_advisory_switch() { switch_advisory(Advisory::interaction_relevance, false); }
 
   /// Ownership management (clause 7). The privilege to delete an object is its attribute `privilege_to_delete_object`. The RTI decides and answers by callbacks;
   /// a federate loses an attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown, AttributeNotDefined, AttributeNotOwned and those named.
@@ -130,48 +139,27 @@ class Ambassador {
   void unassociate_regions_for_updates(ObjectHandle object, std::span<const AttributeRegions> pairs);
   ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, std::string_view name = {});
   /// Adds to what is subscribed to already.
-  void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
+  void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active = true);
   void unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
-  void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
+  void subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_active = true);
   void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions);
   /// To all who subscribe to the class without a region, or with one that overlaps one of these.
   void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp);
   /// Asks the owners of attributes whose regions overlap those of a pair, or that are of the default region, for an update: `provide_attribute_value_update`.
   void request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs);
-  DimensionHandle get_dimension_handle(std::string_view name) const;
-  const std::string& get_dimension_name(DimensionHandle dimension) const;
-  std::optional<std::uint32_t> get_dimension_upper_bound(DimensionHandle dimension) const;
-  DimensionSet get_available_dimensions_for_class_attribute(ObjectClassHandle object_class, AttributeHandle attribute) const;
-  DimensionSet get_available_dimensions_for_interaction_class(InteractionClassHandle interaction_class) const;
 
-  /// Look-ups, answered here from the object model. By name they throw NameNotFound, for handles of nothing ObjectClassNotDefined,
-  /// AttributeNotDefined, InteractionClassNotDefined, InteractionParameterNotDefined. Class names may stand alone where that is unambiguous,
-  /// and are told qualified. Federates are known from `watch_federates`, and oneself.
+  /// Look-ups beyond those of the object model; NameNotFound. Federates are known from `watch_federates`, and oneself.
   FederateHandle get_federate_handle(std::string_view name) const;
   const std::string& get_federate_name(FederateHandle federate) const;
-  ObjectClassHandle get_object_class_handle(std::string_view name) const;
-  std::string get_object_class_name(ObjectClassHandle object_class) const;
   /// Of an object that is known or own; ObjectInstanceNotKnown.
   ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
-  AttributeHandle get_attribute_handle(ObjectClassHandle object_class, std::string_view name) const;
-  const std::string& get_attribute_name(ObjectClassHandle object_class, AttributeHandle attribute) const;
-  InteractionClassHandle get_interaction_class_handle(std::string_view name) const;
-  std::string get_interaction_class_name(InteractionClassHandle interaction_class) const;
-  ParameterHandle get_parameter_handle(InteractionClassHandle interaction_class, std::string_view name) const;
-  const std::string& get_parameter_name(InteractionClassHandle interaction_class, ParameterHandle parameter) const;
-  /// "HLAreliable" and "HLAbestEffort".
-  static Transportation get_transportation_type(std::string_view name);
-  static std::string_view get_transportation_type_name(Transportation transportation);
-  /// "Receive" and "TimeStamp".
-  static Order get_order_type(std::string_view name);
-  static std::string_view get_order_name(Order order);
 
   /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
   /// wait. In the immediate model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its connection. Throw CallNotAllowedFromWithinCallback.
   bool evoke_callback();
   bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0});
   /// From now on the federate is told nothing, in either model, until callbacks are enabled again: in the immediate model all at once, within this call.
-  void disable_callbacks() { are_callbacks_enabled_ = false; }
+  void disable_callbacks();
   void enable_callbacks();
   static constexpr std::size_t waiting_callbacks_max = 64u << 20;
 
@@ -228,11 +216,6 @@ class Ambassador {
 
  private:
   enum class Phase : std::uint8_t { idle, joining, joined, ended };
-  struct KnownObject {
-    static constexpr std::uint16_t unknown = 0xffff;
-    std::uint16_t object_class = unknown;
-    bool is_own = false;  ///< every attribute of it; who owns some has a holding
-  };
   /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
   template <class Message>
   void say(Message message);
@@ -242,6 +225,8 @@ class Ambassador {
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
   KnownObject* find(ObjectHandle object);
   void forget(ObjectHandle object);
+  bool is_gone(ObjectHandle object) const;
+  bool settle_gone(ObjectHandle object);
   void withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all);
   bool take_frame(Bytes frame);
   bool take_message(Reader& reader);
@@ -262,14 +247,14 @@ class Ambassador {
   bool take_updates(Reader& reader);
   bool take_interaction(Reader& reader);
   void associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added);
-  void subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_added);
+  void subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action);
   void say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action);
-  void subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_added);
+  void subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening);
   void write_numbers(std::span<const RegionHandle> regions);
   template <class Tell>
   void for_each_message(std::span<const AttributeRegions> pairs, Tell tell);
   ObjectClassHandle own_class(ObjectHandle object);
-  void check(DimensionHandle dimension) const;
+  using FomLookup::check;
   void check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const;
   void check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const;
   // Periodic state (ambassador_baselines.cpp).
@@ -291,6 +276,7 @@ class Ambassador {
   AttributeSet require_acquirable(ObjectHandle object, AttributeSet attributes);  ///< returns what is being acquired
   void ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
   void give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
+  void say_directive(ResignAction action);
   bool take_ownership(Reader& reader, std::uint8_t kind);
   void take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
   void call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag);
@@ -309,6 +295,23 @@ class Ambassador {
   void apply_held_datagrams();
   void acknowledge_datagrams();
 
+  // Declarations (ambassador_declarations.cpp).
+  void require_class(ObjectClassHandle object_class, AttributeSet attributes) const;
+  void require_class(InteractionClassHandle interaction_class) const;
+  void declare_publication(InteractionClassHandle interaction_class, bool is_published);
+  void declare_subscription(InteractionClassHandle interaction_class, Listening listening);
+  void switch_advisory(Advisory advisory, bool is_on);
+  void advise(ObjectClassHandle object_class);
+  void advise(InteractionClassHandle interaction_class);
+  bool take_class_relevance(Reader& reader);
+  bool take_object_relevance(Reader& reader);
+  bool may_spare() const;
+  bool spares_interaction(InteractionClassHandle interaction_class);
+  bool spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values, const Stamp& stamp);
+  void release_spared(ObjectClassHandle object_class, AttributeSet heard);
+  void release_spared(ObjectHandle object);
+
+  void say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp);
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
   // Time management (ambassador_time.cpp).
@@ -320,7 +323,6 @@ class Ambassador {
   bool postpone(Reader& reader, MessageKind kind);
   bool release_postponed();
 
-  const Fom& fom_;
   std::unique_ptr<CallbackQueue> queue_;  ///< null in the immediate model, which pays nothing for it
   FederateAmbassador& callbacks_;         ///< the federate, or the queue before it
   bool are_callbacks_enabled_ = true;
@@ -332,6 +334,7 @@ class Ambassador {
   std::uint32_t object_block_ = 0, objects_registered_ = 0;
   std::vector<KnownObject> own_;    ///< registered here, by number within our block
   ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
+  std::vector<GoneObject> gone_;    ///< of others, that the RTI may still tell of
   RegionBook regions_;
   std::vector<Range> ranges_;
   std::string fom_difference_;  ///< from the federation's model, if the RTI told
@@ -342,7 +345,7 @@ class Ambassador {
   std::vector<FederationReport> reports_;      ///< likewise
   bool has_asked_ = false;                     ///< the host, before the join
   ObjectMap<Holding> holdings_;     ///< of objects owned in part or negotiated about
-  std::vector<AttributeSet> published_;  ///< by object class
+  DeclaredState declared_;
   ObjectBlockWriter object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
   FrameWriter outgoing_;
   FrameReader incoming_;

@@ -35,8 +35,10 @@ bool Ambassador::take_deltas(Reader& reader) {
   for (std::uint32_t object = 0;;) {
     const HandleReader::Next next = read_handle(bits, object);
     if (next == HandleReader::Next::end) break;
-    const KnownObject* known = next == HandleReader::Next::handle ? find({object}) : nullptr;
-    if (known == nullptr || known->object_class != message.object_class) return false;
+    if (next != HandleReader::Next::handle) return false;
+    const KnownObject* known = find({object});
+    const bool is_object_gone = known == nullptr && is_gone({object});
+    if (!is_object_gone && (known == nullptr || known->object_class != message.object_class)) return false;
     const DeltaOutcome outcome = take_periodic(bits, codec, header, object, stamp);
     if (outcome == DeltaOutcome::malformed) return false;
     if (outcome == DeltaOutcome::no_baseline) {
@@ -44,6 +46,7 @@ bool Ambassador::take_deltas(Reader& reader) {
       ++counters_.differences_refused;
       continue;
     }
+    if (is_object_gone) continue;
     ++counters_.updates_reflected;
     if (has_datagrams_) arrivals_.accept({object}, message.object_class, AttributeSet{*attribute}, order_of_frame(frames_heard_));
     callbacks_.reflect_attribute_values({object}, AttributeSet{*attribute}, decoded_, stamp);

@@ -20,6 +20,12 @@ bool Ambassador::hold(Bytes bytes) {
   return false;
 }
 
+/// While bytes wait unread, nobody would tell that somebody listens.
+void Ambassador::disable_callbacks() {
+  are_callbacks_enabled_ = false;
+  if (!may_spare()) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
+}
+
 void Ambassador::enable_callbacks() {
   are_callbacks_enabled_ = true;
   if (queue_) return;

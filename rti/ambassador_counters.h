@@ -11,6 +11,7 @@ struct AmbassadorCounters {
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_sent = 0, updates_reflected = 0;
   std::uint64_t interactions_sent = 0, interactions_received = 0;
+  std::uint64_t updates_spared = 0, interactions_spared = 0;  ///< not sent, since nobody hears them
   std::uint64_t objects_discovered = 0, objects_removed = 0;
   std::uint64_t scope_changes = 0;
   std::uint64_t keyframes_acknowledged = 0, differences_refused = 0;  ///< of periodic state (docs/wire.md, "Baselines")

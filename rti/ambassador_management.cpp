@@ -150,4 +150,22 @@ bool Ambassador::take_report(Reader& reader, MessageKind kind) {
   return true;
 }
 
+FederateHandle Ambassador::get_federate_handle(std::string_view name) const {
+  for (const auto& [federate, each] : federates_)
+    if (federate && each == name) return federate;
+  throw RtiException(HlaError::name_not_found, "no federate is called '" + std::string(name) + "'");
+}
+
+const std::string& Ambassador::get_federate_name(FederateHandle federate) const {
+  for (const auto& [each, name] : federates_)
+    if (federate && each == federate) return name;
+  throw RtiException(HlaError::name_not_found, "no federate of handle " + std::to_string(federate.value) + " is known");
+}
+
+ObjectClassHandle Ambassador::get_known_object_class_handle(ObjectHandle object) const {
+  const KnownObject* known = const_cast<Ambassador*>(this)->find(object);
+  if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
+  return {known->object_class};
+}
+
 }  // namespace rink::rti

@@ -19,7 +19,7 @@ AttributeSet Ambassador::all_of(const KnownObject& known) const {
   return fom_.attributes(ObjectClassHandle{known.object_class}) | AttributeSet{privilege_to_delete_object};
 }
 
-Ambassador::KnownObject& Ambassador::known_or_throw(ObjectHandle object, AttributeSet attributes) {
+KnownObject& Ambassador::known_or_throw(ObjectHandle object, AttributeSet attributes) {
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
   KnownObject* known = find(object);
   require(known != nullptr, HlaError::object_instance_not_known, object, "it must have been registered or discovered");
@@ -87,6 +87,7 @@ AttributeSet Ambassador::require_owned(ObjectHandle object, AttributeSet attribu
 
 void Ambassador::ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
+  release_spared(object);
   require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object, "a tag of an ownership service has at most 1,024 bytes");
   say_of(OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
 }
@@ -145,7 +146,7 @@ void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle 
 
 AttributeSet Ambassador::require_acquirable(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
-  const AttributeSet published = published_[known.object_class];
+  const AttributeSet published = declared_.objects[known.object_class].published;
   require(!published.is_empty(), HlaError::object_class_not_published, object, "its class must be published");
   require((published | AttributeSet{privilege_to_delete_object}).includes(attributes), HlaError::attribute_not_published, object, "all of the attributes must be published");
   require((owned_of(object, known) & attributes).is_empty(), HlaError::federate_owns_attributes, object, "what is owned can't be acquired");
@@ -190,6 +191,13 @@ bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHa
 
 void Ambassador::set_automatic_resign_directive(ResignAction action) {
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
+  say_directive(action);
+}
+
+/// What outlives its federate must be known to the RTI.
+void Ambassador::say_directive(ResignAction action) {
+  declared_.is_deleting = action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+  if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }
 
@@ -205,14 +213,15 @@ void Ambassador::resign(ResignAction action) {
     require(divests || owned.is_empty() || (deletes && owned.contains(privilege_to_delete_object)), HlaError::federate_owns_attributes, object, "the action must divest or delete what is owned");
   };
   for_each_known(check);
-  say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
+  say_directive(action);
   resign();
 }
 
 bool Ambassador::take_ownership(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::inform_ownership) {
     InformOwnershipMessage message;
-    if (!exchange(reader, message) || !find({message.object})) return false;
+    if (!exchange(reader, message)) return false;
+    if (!find({message.object})) return is_gone({message.object});
     if (message.federate == FederateHandle::none) callbacks_.attribute_is_not_owned({message.object}, {message.attribute});
     else callbacks_.inform_attribute_ownership({message.object}, {message.attribute}, {message.federate});
     return true;
@@ -221,7 +230,8 @@ bool Ambassador::take_ownership(Reader& reader, std::uint8_t kind) {
   if (!exchange(reader, message)) return false;
   const bool is_read = read_objects(reader, [&](ObjectHandle object) {
     KnownObject* known = find(object);
-    if (known == nullptr || !all_of(*known).includes(AttributeSet(message.attributes))) return false;
+    if (known == nullptr) return is_gone(object);
+    if (!all_of(*known).includes(AttributeSet(message.attributes))) return false;
     take_notice(object, *known, static_cast<OwnershipNotice>(message.word), AttributeSet(message.attributes), message.tag);
     return phase_ == Phase::joined;
   });

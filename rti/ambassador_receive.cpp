@@ -46,6 +46,20 @@ bool Ambassador::take_frame(Bytes frame) {
   while (!reader.is_at_end() && phase_ != Phase::ended)
     if (!take_message(reader)) return false;
   end_keyframe();
+  if (!gone_.empty()) std::erase_if(gone_, [](const GoneObject& each) { return each.is_settled; });
+  return true;
+}
+
+/// True of an object that was deleted or forgotten here: what the RTI still says of it, it said before it heard so.
+bool Ambassador::is_gone(ObjectHandle object) const {
+  if (is_ours(object)) return object.value % object_block < objects_registered_;
+  return known_.find(object) != nullptr || std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
+}
+
+/// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
+bool Ambassador::settle_gone(ObjectHandle object) {
+  for (GoneObject& each : gone_)
+    if (each.object == object) each.is_settled = true;
   return true;
 }
 
@@ -70,6 +84,8 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::in_scope:
     case MessageKind::out_of_scope: return take_scope(reader, kind);
     case MessageKind::provide_update: return take_provide_update(reader);
+    case MessageKind::class_relevance: return take_class_relevance(reader);
+    case MessageKind::object_relevance: return take_object_relevance(reader);
     case MessageKind::ownership_notice:
     case MessageKind::inform_ownership: return take_ownership(reader, kind);
     case MessageKind::stamp: return take_stamp(reader);
@@ -139,7 +155,8 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
     RemoveObjectMessage message;
     if (!exchange(reader, message)) return false;
     const KnownObject* known = find({message.object});
-    if (known == nullptr || owned_of({message.object}, *known).contains(privilege_to_delete_object)) return false;
+    if (known == nullptr) return is_gone({message.object}) && settle_gone({message.object});
+    if (owned_of({message.object}, *known).contains(privilege_to_delete_object)) return false;
     arrivals_.leave({message.object});
     forget({message.object});
     ++counters_.objects_removed;
@@ -151,6 +168,7 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
   if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) || known_.find(object) != nullptr) return false;
+  std::erase_if(gone_, [object](const GoneObject& each) { return each.object == object; });
   known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;
   callbacks_.discover_object_instance(object, {message.object_class}, message.name);
@@ -159,12 +177,14 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
 
 bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
   InScopeMessage message;
-  const KnownObject* known = exchange(reader, message) ? find({message.object}) : nullptr;
-  if (known == nullptr) return false;
+  if (!exchange(reader, message)) return false;
+  const KnownObject* known = find({message.object});
+  if (known == nullptr) return is_gone({message.object});
   ++counters_.scope_changes;
   const bool is_in = static_cast<MessageKind>(kind) == MessageKind::in_scope;
   if (is_in) arrivals_.enter({message.object}, known->object_class, order_of_frame(frames_heard_));
   else arrivals_.leave({message.object});
+  if (!declared_.is_on(Advisory::attribute_scope)) return true;
   if (is_in) callbacks_.attributes_in_scope({message.object});
   else callbacks_.attributes_out_of_scope({message.object});
   return true;
@@ -187,7 +207,8 @@ bool Ambassador::take_updates(Reader& reader) {
   const Stamp stamp = *heard_stamp_;
   const bool is_read = read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
     const KnownObject* known = find({object});
-    if (known == nullptr || known->object_class != message.object_class) return false;
+    if (known == nullptr) return is_gone({object});
+    if (known->object_class != message.object_class) return false;
     if (has_codec) {
       decoded_.clear();
       if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;

@@ -113,18 +113,18 @@ ObjectHandle Ambassador::register_object_instance_with_regions(ObjectClassHandle
   return object;
 }
 
-void Ambassador::subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
-  subscribe_with_regions(object_class, pairs, true);
+void Ambassador::subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
+  subscribe_with_regions(object_class, pairs, is_active ? RegionAction::add : RegionAction::add_passively);
 }
 void Ambassador::unsubscribe_object_class_attributes_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
-  subscribe_with_regions(object_class, pairs, false);
+  subscribe_with_regions(object_class, pairs, RegionAction::remove);
 }
 
-void Ambassador::subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_added) {
+void Ambassador::subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
-    for (const RegionHandle region : each.regions) regions_.subscribe(object_class, each.attributes, region, is_added);
-  say_regional_class(object_class, pairs, is_added ? RegionAction::add : RegionAction::remove);
+    for (const RegionHandle region : each.regions) regions_.subscribe(object_class, each.attributes, region, action != RegionAction::remove);
+  say_regional_class(object_class, pairs, action);
 }
 
 void Ambassador::request_attribute_value_update_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
@@ -137,7 +137,7 @@ bool Ambassador::take_provide_update(Reader& reader) {
   if (!exchange(reader, message)) return false;
   const KnownObject* known = find({message.object});
   const AttributeSet attributes{message.attributes};
-  if (known == nullptr) return is_ours({message.object});  // deleted meanwhile
+  if (known == nullptr) return is_gone({message.object});
   if (!fom_.attributes(ObjectClassHandle{known->object_class}).includes(attributes)) return false;
   callbacks_.provide_attribute_value_update({message.object}, attributes);
   return true;
@@ -149,22 +149,23 @@ void Ambassador::say_regional_class(ObjectClassHandle object_class, std::span<co
   });
 }
 
-void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
-  subscribe_with_regions(interaction_class, regions, true);
+void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_active) {
+  subscribe_with_regions(interaction_class, regions, is_active ? Listening::active : Listening::passive);
 }
 void Ambassador::unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
-  subscribe_with_regions(interaction_class, regions, false);
+  subscribe_with_regions(interaction_class, regions, Listening::none);
 }
 
-void Ambassador::subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, bool is_added) {
+void Ambassador::subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening) {
   check(interaction_class, regions);
-  for (const RegionHandle region : regions) regions_.subscribe(interaction_class, region, is_added);
+  for (const RegionHandle region : regions) regions_.subscribe(interaction_class, region, listening != Listening::none);
   write_numbers(regions);
-  say(RegionalInteractionMessage{static_cast<std::uint16_t>(interaction_class.value), is_added, static_cast<std::uint16_t>(regions.size()), region_records_});
+  say(RegionalInteractionMessage{static_cast<std::uint16_t>(interaction_class.value), static_cast<std::uint8_t>(listening), static_cast<std::uint16_t>(regions.size()), region_records_});
 }
 
 void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp) {
   check(interaction_class, regions);
+  if (spares_interaction(interaction_class)) return;
   write_numbers(regions);
   say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp, static_cast<std::uint16_t>(regions.size()), region_records_, parameters});
   ++counters_.interactions_sent;
@@ -184,10 +185,6 @@ ObjectClassHandle Ambassador::own_class(ObjectHandle object) {
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
   if (owned_of(object, *known).is_empty()) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
   return {known->object_class};
-}
-
-void Ambassador::check(DimensionHandle dimension) const {
-  if (dimension.value >= fom_.dimensions().size()) throw RtiException(HlaError::invalid_dimension_handle, "the model has no dimension " + std::to_string(dimension.value));
 }
 
 void Ambassador::check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const {
@@ -212,35 +209,6 @@ void Ambassador::check(InteractionClassHandle interaction_class, std::span<const
     throw RtiException(HlaError::invalid_region, "1 to " + std::to_string(regions_per_message_max) + " regions are needed");
   const InteractionClass& known = fom_.at(interaction_class);
   for (const RegionHandle region : regions) regions_.check_context(region, known.dimensions, "interaction class '" + known.name + "'");
-}
-
-DimensionHandle Ambassador::get_dimension_handle(std::string_view name) const {
-  const auto found = fom_.dimension(name);
-  if (!found) throw RtiException(HlaError::name_not_found, "no dimension is called '" + std::string(name) + "'");
-  return *found;
-}
-
-const std::string& Ambassador::get_dimension_name(DimensionHandle dimension) const {
-  check(dimension);
-  return fom_.at(dimension).name;
-}
-
-std::optional<std::uint32_t> Ambassador::get_dimension_upper_bound(DimensionHandle dimension) const {
-  check(dimension);
-  return fom_.at(dimension).upper_bound;
-}
-
-DimensionSet Ambassador::get_available_dimensions_for_class_attribute(ObjectClassHandle object_class, AttributeHandle attribute) const {
-  if (object_class.value >= fom_.object_classes().size()) throw RtiException(HlaError::object_class_not_defined, "object class " + std::to_string(object_class.value));
-  const auto& attributes = fom_.at(object_class).attributes;
-  if (attribute.value >= attributes.size()) throw RtiException(HlaError::attribute_not_defined, "attribute " + std::to_string(attribute.value) + " of class '" + fom_.at(object_class).name + "'");
-  return attributes[attribute.value].dimensions;
-}
-
-DimensionSet Ambassador::get_available_dimensions_for_interaction_class(InteractionClassHandle interaction_class) const {
-  if (interaction_class.value >= fom_.interaction_classes().size())
-    throw RtiException(HlaError::interaction_class_not_defined, "interaction class " + std::to_string(interaction_class.value));
-  return fom_.at(interaction_class).dimensions;
 }
 
 }  // namespace rink::rti

@@ -90,6 +90,8 @@ RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, Attrib
   }
   const AttributeSet at_once(attributes.bits & ~in_order.bits);
   if (!at_once.is_empty()) update_attribute_values(object, at_once, others, Stamp{time.value, tag});
+  release_spared(object);  // of receive order, and older
+  declared_.note_sent(object_class, in_order, declared_.newest);
   content_.clear();
   UpdatesMessage header{static_cast<std::uint16_t>(object_class.value), in_order.bits};
   write(content_, header);

@@ -66,6 +66,15 @@ class FederateAmbassador {
   virtual void federate_joined(FederateHandle, std::string_view /*name*/, std::string_view /*type*/) {}
   virtual void federate_resigned(FederateHandle, std::string_view /*name*/, std::string_view /*type*/, ResignReason) {}
 
+  /// Declaration management: somebody subscribes actively to what this federate publishes of the class, or nobody does any more.
+  virtual void start_registration_for_object_class(ObjectClassHandle) {}
+  virtual void stop_registration_for_object_class(ObjectClassHandle) {}
+  virtual void turn_interactions_on(InteractionClassHandle) {}
+  virtual void turn_interactions_off(InteractionClassHandle) {}
+  /// Told if the switch for attribute relevance is on: these attributes of an own object are in the scope of some active subscriber, or of none any more.
+  virtual void turn_updates_on_for_object_instance(ObjectHandle, AttributeSet) {}
+  virtual void turn_updates_off_for_object_instance(ObjectHandle, AttributeSet) {}
+
   /// At most once per object. The class is the one it was registered with, which may inherit from the subscribed one.
   virtual void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view /*name*/) {}
   /// `values` are concatenated in the order of the attributes; one of variable size is preceded by its length [bytes] as a little-endian u32.

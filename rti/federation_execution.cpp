@@ -53,6 +53,7 @@ void FederationExecution::match() {
 
 void FederationExecution::flush(Outlet& outlet) {
   parts_->settle_time();
+  parts_->tell_object_relevance();
   parts_->flush(outlet);
 }
 const std::string& FederationExecution::name() const { return parts_->settings_.federation; }

@@ -35,7 +35,8 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       interest_(*distribution_),
       buffering_(buffering_of(services)),
       baselines_(fom, settings.keyframe_period),
-      interaction_subscribers_(fom.interaction_classes().size()) {
+      interaction_subscribers_(fom.interaction_classes().size()),
+      relevance_(fom.object_classes().size() + fom.interaction_classes().size()) {
   list_best_effort();
 }
 
@@ -129,6 +130,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   federate.published.resize(fom_.object_classes().size());
   federate.published_interactions.resize(fom_.interaction_classes().size());
   federate.subscribed_interactions.resize(fom_.interaction_classes().size());
+  federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
   slot_of_handle_.push_back(slot);
   names_.emplace(federate.name, slot);
@@ -153,6 +155,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   names_.erase(federate.name);
   federate.is_joined = federate.is_watching = false;
   for (std::size_t i = 0; i < interaction_subscribers_.size(); ++i) std::erase(interaction_subscribers_[i], slot);
+  subscribed(slot);
   leave_points(slot);
   for (Federate& other : federates_)
     if (other.is_watching)

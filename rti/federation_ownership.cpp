@@ -221,19 +221,12 @@ void FederationExecution::Parts::published_changed(std::uint32_t slot, std::uint
   });
 }
 
-template <class Visit>
-void FederationExecution::Parts::for_each_owned(std::uint32_t slot, Visit visit) {
-  if (!has_ownership_moved_) return objects_.for_each_in_block(federates_[slot].block, visit);
-  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)
-    if (objects_[object].is_alive && !ownership_.owned_by(slot, object).is_empty()) visit(object);
-}
-
 void FederationExecution::Parts::leave_objects(std::uint32_t slot) {
   const ResignAction action = federates_[slot].resign_action;
   const bool is_deleting = action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
   ownership_.forget_claims(slot);
   for_each_owned(slot, [&](ObjectSlot object) {
-    if (is_deleting && ownership_.owner_of(object, privilege_to_delete_object) == slot) return delete_object(object, slot);
+    if (is_deleting && ownership_.owner_of(object, privilege_to_delete_object) == slot) return delete_object(object);
     serve_ownership(slot, object, OwnershipRequest::divest, ownership_.owned_by(slot, object), {});
   });
 }

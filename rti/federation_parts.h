@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "rti/federation_execution.h"
-#include "rti/distribution/data_distribution.h"
+#include "rti/distribution/relevance.h"
 #include "rti/federation_services.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
+#include "rti/objects/object_map.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
 #include "rti/buffering/buffering.h"
@@ -36,7 +37,10 @@ class FederationExecution::Parts {
     std::uint32_t objects_registered = 0;
     std::string name, type;
     std::vector<AttributeSet> published;                                  ///< by object class
-    std::vector<bool> published_interactions, subscribed_interactions;    ///< by interaction class
+    std::vector<bool> published_interactions;                             ///< by interaction class
+    std::vector<Listening> subscribed_interactions;                       ///< likewise
+    std::vector<Subscription> told_relevance;                             ///< what it was told that others hear, by row of `Relevance`
+    std::unique_ptr<ObjectMap<AttributeSet>> told_objects;                ///< likewise of objects, if it asked for it: those that others hear
     std::vector<std::byte> control;  ///< messages that go out before this flush's updates
     std::vector<std::byte> tail;     ///< and after them
     ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
@@ -108,24 +112,34 @@ class FederationExecution::Parts {
   void receive(ConnectionId connection, Bytes bytes);
   Outcome take_frame(ConnectionId connection, Bytes frame);
   Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
-  Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
-  Outcome publish_object_class(std::uint32_t slot, Reader& reader);
-  Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
-  Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome register_object(std::uint32_t slot, Reader& reader);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
-  /// All who know it but `by` are told.
-  void delete_object(ObjectSlot object, std::uint32_t by);
+  /// All who know it are told, who deleted it too: up to then it may hear of it.
+  void delete_object(ObjectSlot object);
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
-  void list_interaction_subscriber(std::uint32_t slot);
-  /// True if it subscribes to the class or a superclass without a region.
-  bool hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
   /// `regions` are the sender's; none: the default region, which overlaps all.
   Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions = {});
+
+  // Declarations (federation_declarations.cpp).
+  Outcome take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome publish_object_class(std::uint32_t slot, Reader& reader);
+  Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
+  Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
+  void list_interaction_subscriber(std::uint32_t slot);
+  Listening listening(std::uint32_t slot, std::uint16_t interaction_class) const;
+  /// True if it subscribes to the class or a superclass without a region.
+  bool hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
+  void subscribed(std::uint32_t slot);
+  void tell_publishers(std::size_t row);
+  bool publishes(std::uint32_t slot, std::size_t row) const;
+  void tell_relevance(std::uint32_t slot, std::size_t row);
+  Outcome take_spare_update(std::uint32_t slot, Reader& reader);
+  Outcome switch_advisory(std::uint32_t slot, Reader& reader);
+  void tell_object_relevance();
 
   // Regions (federation_regions.cpp).
   Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);
@@ -234,6 +248,7 @@ class FederationExecution::Parts {
   std::unordered_map<std::string, std::uint32_t> names_;
   std::vector<SynchronizationPoint> points_;
   std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
+  Relevance relevance_;
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand
@@ -254,5 +269,12 @@ class FederationExecution::Parts {
   void take_scratch();
   void add_shared(Bytes bytes);
 };
+
+template <class Visit>
+void FederationExecution::Parts::for_each_owned(std::uint32_t slot, Visit visit) {
+  if (!has_ownership_moved_) return objects_.for_each_in_block(federates_[slot].block, visit);
+  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)
+    if (objects_[object].is_alive && !ownership_.owned_by(slot, object).is_empty()) visit(object);
+}
 
 }  // namespace rink::rti

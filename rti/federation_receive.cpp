@@ -63,7 +63,8 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::publish_object_class:
     case MessageKind::subscribe_object_class:
     case MessageKind::publish_interaction_class:
-    case MessageKind::subscribe_interaction_class: return take_declaration(slot, kind, reader);
+    case MessageKind::subscribe_interaction_class:
+    case MessageKind::advisory_switch: return take_declaration(slot, kind, reader);
     case MessageKind::create_region:
     case MessageKind::modify_regions:
     case MessageKind::associate_region:
@@ -78,6 +79,7 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::delete_object:
     case MessageKind::stamp:
     case MessageKind::updates:
+    case MessageKind::spare_update:
     case MessageKind::interaction: return take_object(slot, kind, reader);
     case MessageKind::acknowledge_keyframe:
     case MessageKind::refuse_keyframe: return take_keyframe(slot, kind, reader);
@@ -95,68 +97,12 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
   }
 }
 
-Outcome FederationExecution::Parts::take_declaration(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  if (kind == MessageKind::publish_object_class) return publish_object_class(slot, reader);
-  if (kind == MessageKind::subscribe_object_class) return subscribe_object_class(slot, reader);
-  return declare_interaction(slot, kind, reader);
-}
-
-Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Reader& reader) {
-  PublishObjectClassMessage message;
-  Federate& federate = federates_[slot];
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
-  const ObjectClassHandle object_class{message.object_class};
-  if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes))) return Violation::unknown_name;
-  const AttributeSet before = std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
-  published_changed(slot, message.object_class, before);
-  return std::nullopt;
-}
-
-Outcome FederationExecution::Parts::subscribe_object_class(std::uint32_t slot, Reader& reader) {
-  SubscribeObjectClassMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
-  const AttributeSet attributes{message.attributes};
-  if (!fom_.attributes(ObjectClassHandle{message.object_class}).includes(attributes)) return Violation::unknown_name;
-  if (!interest_.subscribe(slot, message.object_class, attributes, {message.region})) return Violation::unknown_name;
-  return std::nullopt;
-}
-
-Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  PublishInteractionClassMessage message;
-  if (!exchange(reader, message)) return Violation::malformed;
-  if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
-  const bool is_declared = message.is_declared != 0;
-  if (kind == MessageKind::publish_interaction_class) {
-    federates_[slot].published_interactions[message.interaction_class] = is_declared;
-    return std::nullopt;
-  }
-  federates_[slot].subscribed_interactions[message.interaction_class] = is_declared;
-  list_interaction_subscriber(slot);
-  return std::nullopt;
-}
-
-/// Those who subscribe to a class or a superclass, in whatever region.
-void FederationExecution::Parts::list_interaction_subscriber(std::uint32_t slot) {
-  for (std::uint32_t i = 0; i < interaction_subscribers_.size(); ++i) {
-    auto& subscribers = interaction_subscribers_[i];
-    std::erase(subscribers, slot);
-    if (hears_everywhere(slot, static_cast<std::uint16_t>(i)) || interest_.subscribes_interaction(slot, static_cast<std::uint16_t>(i))) subscribers.push_back(slot);
-  }
-}
-
-bool FederationExecution::Parts::hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const {
-  for (InteractionClassHandle each{interaction_class}; each; each = fom_.at(each).parent)
-    if (federates_[slot].subscribed_interactions[each.value]) return true;
-  return false;
-}
-
 Outcome FederationExecution::Parts::take_object(std::uint32_t slot, MessageKind kind, Reader& reader) {
   if (kind == MessageKind::register_object) return register_object(slot, reader);
   if (kind == MessageKind::delete_object) return delete_object(slot, reader);
   if (kind == MessageKind::updates) return take_updates(slot, reader);
   if (kind == MessageKind::stamp) return take_stamp(slot, reader);
+  if (kind == MessageKind::spare_update) return take_spare_update(slot, reader);
   return take_interaction(slot, reader);
 }
 
@@ -180,18 +126,17 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   const ObjectSlot object = objects_.find({message.object});
   if (object == no_object) return Violation::unknown_name;
   if (objects_[object].owner != slot && ownership_.owner_of(object, privilege_to_delete_object) != slot) return Violation::not_owned;
-  delete_object(object, slot);
+  delete_object(object);
   return std::nullopt;
 }
 
-void FederationExecution::Parts::delete_object(ObjectSlot object, std::uint32_t by) {
+void FederationExecution::Parts::delete_object(ObjectSlot object) {
   interest_.object_deleted(object);
   ownership_.forget(object);
   if (object < inherited_.size()) inherited_[object] = {};
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
-    if (i == by) continue;
     RemoveObjectMessage removal{objects_[object].handle.value};
     say(federates_[i].tail, removal);
     counters_.scope_bytes_sent += measure(removal);

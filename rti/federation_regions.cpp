@@ -129,16 +129,20 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const AttributeSet all = fom_.attributes(ObjectClassHandle{message.object_class});
-  return for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
+  const Outcome outcome = for_each_record<AttributeRegionRecord>(message.pairs, message.count, [&](const AttributeRegionRecord& pair) -> Outcome {
     const AttributeSet attributes{pair.attributes};
     const RegionHandle region{pair.region};
     if (!all.includes(attributes) || !interest_.has_region(slot, region)) return Violation::unknown_name;
     const auto action = static_cast<RegionAction>(message.action);
     if (action == RegionAction::request_update) return request_update(slot, {message.object_class}, attributes, region), std::nullopt;
-    const AttributeSet now = interest_.subscribed(slot, message.object_class, region);
-    interest_.subscribe(slot, message.object_class, action == RegionAction::add ? now | attributes : now.without(attributes), region);
+    Subscription now = interest_.subscribed(slot, message.object_class, region);
+    now.heard = action == RegionAction::remove ? now.heard.without(attributes) : now.heard | attributes;
+    now.active = action == RegionAction::add ? now.active | attributes : now.active.without(attributes);
+    interest_.subscribe(slot, message.object_class, now, region);
     return std::nullopt;
   });
+  if (!outcome) subscribed(slot);
+  return outcome;
 }
 
 /// Looks at every object: it is asked for seldom, and what overlaps is not kept.
@@ -164,7 +168,7 @@ Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
   for (const RegionHandle region : regions_of(message.regions))
-    if (!interest_.subscribe_interaction(slot, message.interaction_class, region, message.is_subscribed != 0)) return Violation::unknown_name;
+    if (!interest_.subscribe_interaction(slot, message.interaction_class, region, static_cast<Listening>(message.is_subscribed))) return Violation::unknown_name;
   list_interaction_subscriber(slot);
   return std::nullopt;
 }

@@ -121,7 +121,7 @@ void FederationExecution::Parts::Time::complete(const Message& message) {
   if (slot == no_object) return;
   if (message.kind == MessageKind::delete_object) {
     told_until_.erase(message.object);
-    return parts_.delete_object(slot, parts_.ownership_.owner_of(slot, privilege_to_delete_object));
+    return parts_.delete_object(slot);
   }
   if (!is_news(message)) return;
   parts_.objects_.store(slot, message.attributes, message.body);

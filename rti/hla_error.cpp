@@ -64,6 +64,14 @@ const char* to_string(HlaError error) {
     case HlaError::asynchronous_delivery_already_enabled: return "AsynchronousDeliveryAlreadyEnabled";
     case HlaError::asynchronous_delivery_already_disabled: return "AsynchronousDeliveryAlreadyDisabled";
     case HlaError::no_acquisition_pending: return "NoAcquisitionPending";
+    case HlaError::object_class_relevance_advisory_switch_is_on: return "ObjectClassRelevanceAdvisorySwitchIsOn";
+    case HlaError::object_class_relevance_advisory_switch_is_off: return "ObjectClassRelevanceAdvisorySwitchIsOff";
+    case HlaError::attribute_relevance_advisory_switch_is_on: return "AttributeRelevanceAdvisorySwitchIsOn";
+    case HlaError::attribute_relevance_advisory_switch_is_off: return "AttributeRelevanceAdvisorySwitchIsOff";
+    case HlaError::attribute_scope_advisory_switch_is_on: return "AttributeScopeAdvisorySwitchIsOn";
+    case HlaError::attribute_scope_advisory_switch_is_off: return "AttributeScopeAdvisorySwitchIsOff";
+    case HlaError::interaction_relevance_advisory_switch_is_on: return "InteractionRelevanceAdvisorySwitchIsOn";
+    case HlaError::interaction_relevance_advisory_switch_is_off: return "InteractionRelevanceAdvisorySwitchIsOff";
   }
   return "unknown error";
 }

@@ -69,6 +69,14 @@ enum class HlaError : std::uint8_t {
   asynchronous_delivery_already_enabled,
   asynchronous_delivery_already_disabled,
   no_acquisition_pending,
+  object_class_relevance_advisory_switch_is_on,
+  object_class_relevance_advisory_switch_is_off,
+  attribute_relevance_advisory_switch_is_on,
+  attribute_relevance_advisory_switch_is_off,
+  attribute_scope_advisory_switch_is_on,
+  attribute_scope_advisory_switch_is_off,
+  interaction_relevance_advisory_switch_is_on,
+  interaction_relevance_advisory_switch_is_off,
 };
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);

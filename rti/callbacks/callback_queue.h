@@ -55,7 +55,17 @@ class CallbackQueue final : public FederateAmbassador {
     put<&FederateAmbassador::federate_resigned>(federate, name, type, reason);
   }
 
-  // Objects and interactions.
+  // Declarations, objects and interactions.
+  void start_registration_for_object_class(ObjectClassHandle object_class) override { put<&FederateAmbassador::start_registration_for_object_class>(object_class); }
+  void stop_registration_for_object_class(ObjectClassHandle object_class) override { put<&FederateAmbassador::stop_registration_for_object_class>(object_class); }
+  void turn_interactions_on(InteractionClassHandle interaction_class) override { put<&FederateAmbassador::turn_interactions_on>(interaction_class); }
+  void turn_interactions_off(InteractionClassHandle interaction_class) override { put<&FederateAmbassador::turn_interactions_off>(interaction_class); }
+  void turn_updates_on_for_object_instance(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::turn_updates_on_for_object_instance>(object, attributes);
+  }
+  void turn_updates_off_for_object_instance(ObjectHandle object, AttributeSet attributes) override {
+    put<&FederateAmbassador::turn_updates_off_for_object_instance>(object, attributes);
+  }
   void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
     put<&FederateAmbassador::discover_object_instance>(object, object_class, name);
   }

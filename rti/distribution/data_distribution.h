@@ -21,7 +21,15 @@ struct Range {
 };
 
 /// What is to be done with a class's attributes and the regions that follow.
-enum class RegionAction : std::uint8_t { remove, add, request_update };
+enum class RegionAction : std::uint8_t { remove, add, request_update, add_passively };
+
+/// Attributes of a class that somebody subscribes to, and those of them that count for advisories: not subscribed passively (IEEE 1516.1-2010, 5.8).
+struct Subscription {
+  AttributeSet heard, active;
+  friend bool operator==(const Subscription&, const Subscription&) = default;
+};
+/// How somebody subscribes to an interaction class; the numbers are those on the wire.
+enum class Listening : std::uint8_t { none, active, passive };
 
 /// A change that a federate has not been told yet.
 struct ScopeEvent {
@@ -75,15 +83,15 @@ class DataDistribution {
   const FederateInterest& of(std::uint32_t federate) const { return *told_[federate]; }
 
   /// Replaces what it named for the class and region before; an empty handle is the default region. False if the region does not exist.
-  virtual bool subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) = 0;
+  virtual bool subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes, RegionHandle region) = 0;
   /// What it names for the class and region now.
-  virtual AttributeSet subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const = 0;
+  virtual Subscription subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const = 0;
   /// All that it subscribes of a class, in whatever region, superclasses included.
-  virtual AttributeSet subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const = 0;
+  virtual Subscription subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const = 0;
   /// To one interaction class within a region; false if the region does not exist.
-  virtual bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) = 0;
-  /// True if it subscribes to the class or a superclass with any region.
-  virtual bool subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const = 0;
+  virtual bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, Listening listening) = 0;
+  /// How it subscribes to the class or a superclass with any region.
+  virtual Listening subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const = 0;
   /// True if a region that it subscribes to the class with overlaps one of the sender's, as they are committed now.
   virtual bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) = 0;
 
@@ -113,6 +121,12 @@ class DataDistribution {
   /// falling back to the default region meanwhile would show every body that is handed over to everybody.
   virtual void owner_changed(ObjectSlot slot) = 0;
 
+  /// Those of an object's attributes that the last match put in its scope by subscriptions that are not passive.
+  virtual AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) = 0;
+  /// While it is watched, `touched` lists the objects that came into or went out of anybody's scope, in whole or in part, or were registered or changed hands, until it is cleared.
+  void watch_scope(bool is_watched) { watches_scope_ = is_watched; }
+  std::vector<ObjectSlot>& touched() { return touched_; }
+
   /// Turns all that was said since the last match into changes of scope.
   virtual void match() = 0;
 
@@ -124,6 +138,8 @@ class DataDistribution {
 
  protected:
   std::vector<FederateInterest*> told_;  ///< by federate slot; null where nobody is. The derived class owns them
+  bool watches_scope_ = false;
+  std::vector<ObjectSlot> touched_;      ///< may name an object more than once
 };
 
 }  // namespace rink::rti

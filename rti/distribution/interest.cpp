@@ -32,6 +32,7 @@ void Interest::remove_federate(std::uint32_t federate) {
   DeclaredInterest& interest = *federates_[federate];
   for (std::uint32_t region = 0; region < interest.regions.size(); ++region)
     if (interest.regions[region] != no_region) delete_region(federate, {region});
+  if (watches_scope_) interest.in_scope.for_each([this](ObjectSlot slot) { touch(slot); });
   federates_[federate].reset();
   told_[federate] = nullptr;
 }
@@ -44,12 +45,15 @@ void Interest::expand(ClassInterest& interest) const {
   }
 }
 
-bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) {
+bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes, RegionHandle region) {
   DeclaredInterest& interest = *federates_[federate];
   if (region && !has_region(federate, region)) return false;
   const RegionSlot slot = region ? slot_of(federate, region) : no_region;
   ClassInterest& classes = region ? regional(interest, slot).classes : interest.everywhere;
-  classes.declared[object_class] = attributes;
+  classes.declared[object_class] = attributes.heard;
+  const AttributeSet passive = attributes.heard.without(attributes.active);
+  if (classes.passive.empty() && !passive.is_empty()) classes.passive.resize(classes.declared.size());
+  if (!classes.passive.empty()) classes.passive[object_class] = passive;
   expand(classes);
   interest.is_changed = true;
   const auto& declared = classes.declared;
@@ -57,34 +61,52 @@ bool Interest::subscribe(std::uint32_t federate, std::uint16_t object_class, Att
   return true;
 }
 
-AttributeSet Interest::subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const {
+Subscription Interest::subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const {
   const DeclaredInterest& interest = *federates_[federate];
-  if (!region) return interest.everywhere.declared[object_class];
+  const auto of = [object_class](const ClassInterest& classes) {
+    const AttributeSet heard = classes.declared[object_class];
+    return Subscription{heard, classes.passive.empty() ? heard : heard.without(classes.passive[object_class])};
+  };
+  if (!region) return of(interest.everywhere);
   for (const Regional& each : interest.regionals)
-    if (each.region == slot_of(federate, region)) return each.classes.declared[object_class];
+    if (each.region == slot_of(federate, region)) return of(each.classes);
   return {};
 }
 
-AttributeSet Interest::subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const {
+Subscription Interest::subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const {
   const DeclaredInterest& interest = *federates_[federate];
-  AttributeSet set = interest.everywhere.expanded[object_class];
-  for (const Regional& each : interest.regionals) set = set | each.classes.expanded[object_class];
+  Subscription all{interest.everywhere.expanded[object_class], active(interest.everywhere, object_class)};
+  for (const Regional& each : interest.regionals) {
+    all.heard = all.heard | each.classes.expanded[object_class];
+    all.active = all.active | active(each.classes, object_class);
+  }
+  return all;
+}
+
+AttributeSet Interest::active(const ClassInterest& interest, std::uint16_t object_class) const {
+  if (interest.passive.empty()) return interest.expanded[object_class];
+  AttributeSet set;
+  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent) set = set | interest.declared[each.value].without(interest.passive[each.value]);
   return set;
 }
 
-bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) {
+bool Interest::subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, Listening listening) {
   if (!has_region(federate, region)) return false;
   auto& interactions = federates_[federate]->interactions;
   const RegionSlot slot = slot_of(federate, region);
   std::erase_if(interactions, [&](const auto& each) { return each.interaction_class == interaction_class && each.region == slot; });
-  if (is_subscribed) interactions.push_back({interaction_class, slot});
+  if (listening != Listening::none) interactions.push_back({interaction_class, slot, listening == Listening::passive});
   return true;
 }
 
-bool Interest::subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const {
-  return std::ranges::any_of(federates_[federate]->interactions, [&](const auto& each) {
-    return fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class});
-  });
+Listening Interest::subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const {
+  Listening found = Listening::none;
+  for (const auto& each : federates_[federate]->interactions) {
+    if (!fom_.is_a(InteractionClassHandle{interaction_class}, InteractionClassHandle{each.interaction_class})) continue;
+    if (!each.is_passive) return Listening::active;
+    found = Listening::passive;
+  }
+  return found;
 }
 
 bool Interest::hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) {
@@ -182,13 +204,26 @@ AttributeSet Interest::covered(const Regional& regional, ObjectSlot object, Attr
   return AttributeSet(attributes.bits & (inside.bits | ~placed.bits));
 }
 
-AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
+void Interest::owner_changed(ObjectSlot slot) {
+  changed_objects_.push_back(slot);
+  touch(slot);
+}
+
+AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
+  const DeclaredInterest& interest = *federates_[federate];
+  const AttributeSet told = interest.told(slot, objects_[slot].object_class);
+  const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
+  const bool has_passive = !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
+  return told.is_empty() || !has_passive ? told : told & wanted(interest, slot, true);
+}
+
+AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot, bool is_active_only) {
   const Object& object = objects_[slot];
   if (!object.is_alive || object.is_leaving || object.owner == interest.federate) return {};
-  AttributeSet set = interest.everywhere.expanded[object.object_class];
+  AttributeSet set = is_active_only ? active(interest.everywhere, object.object_class) : interest.everywhere.expanded[object.object_class];
   const Use& used = uses_[slot];
   for (const Regional& each : interest.regionals) {
-    const AttributeSet named = each.classes.expanded[object.object_class];
+    const AttributeSet named = is_active_only ? active(each.classes, object.object_class) : each.classes.expanded[object.object_class];
     if (used.region == several) {
       set = set | covered(each, slot, named);
       continue;
@@ -275,6 +310,7 @@ void Interest::reconsider_all(DeclaredInterest& interest) {
     const AttributeSet was = interest.told(slot, objects_[slot].object_class);
     const AttributeSet is = wanted(interest, slot);
     settle(interest, slot, was, is);
+    if (!is.is_empty()) touch(slot);
     if (!is_uniform) by_object[slot] = is;
   }
   interest.is_uniform = is_uniform;
@@ -286,6 +322,7 @@ void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
   ++counters_.pairs_reconsidered;
   const AttributeSet was = interest.told(slot, objects_[slot].object_class), is = wanted(interest, slot);
   settle(interest, slot, was, is);
+  if (!is.is_empty()) touch(slot);  // what is heard as before may be heard passively now
   if (interest.is_uniform) return;
   if (slot >= interest.by_object.size()) interest.by_object.resize(objects_.slot_count());
   interest.by_object[slot] = is;
@@ -293,6 +330,7 @@ void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
 
 void Interest::settle(FederateInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is) {
   if (was == is) return;
+  touch(slot);
   if (was.is_empty()) {
     interest.in_scope.insert(slot);
     interest.events.push_back({slot, im::Transition::entered});

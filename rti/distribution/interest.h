@@ -18,6 +18,7 @@ inline constexpr RegionSlot no_region = 0xffffffffu;
 /// The attributes of each class that one subscription names, as declared and with what subclasses inherit.
 struct ClassInterest {
   std::vector<AttributeSet> declared, expanded;  ///< by class
+  std::vector<AttributeSet> passive;             ///< those of `declared` that are passive; empty if none is
 };
 
 /// A region as it was last committed, and who uses it for updates. Over X and Y the filter knows it; other dimensions are compared one by one, for pairs that the filter lets through
@@ -48,6 +49,7 @@ struct DeclaredInterest : FederateInterest {
   struct InteractionRegion {
     std::uint16_t interaction_class = 0;
     RegionSlot region = no_region;
+    bool is_passive = false;
   };
   ClassInterest everywhere;
   std::vector<Regional> regionals;
@@ -65,11 +67,11 @@ class Interest : public DataDistribution {
   void add_federate(std::uint32_t federate) override;
   void remove_federate(std::uint32_t federate) override;
 
-  bool subscribe(std::uint32_t federate, std::uint16_t object_class, AttributeSet attributes, RegionHandle region) override;
-  AttributeSet subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const override;
-  AttributeSet subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const override;
-  bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, bool is_subscribed) override;
-  bool subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const override;
+  bool subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes, RegionHandle region) override;
+  Subscription subscribed(std::uint32_t federate, std::uint16_t object_class, RegionHandle region) const override;
+  Subscription subscribed_anywhere(std::uint32_t federate, std::uint16_t object_class) const override;
+  bool subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class, RegionHandle region, Listening listening) override;
+  Listening subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const override;
   bool hears(std::uint32_t federate, std::uint16_t interaction_class, std::uint32_t sender, std::span<const RegionHandle> sent) override;
 
   bool has_region(std::uint32_t federate, RegionHandle region) const override;
@@ -86,7 +88,8 @@ class Interest : public DataDistribution {
 
   void object_registered(ObjectSlot slot) override;
   void object_deleted(ObjectSlot slot) override;
-  void owner_changed(ObjectSlot slot) override { changed_objects_.push_back(slot); }
+  void owner_changed(ObjectSlot slot) override;
+  AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) override;
 
   void match() override;
   const DistributionCounters& counters() const override { return counters_; }
@@ -130,7 +133,11 @@ class Interest : public DataDistribution {
   void expand(ClassInterest& interest) const;
   bool overlaps(const Regional& regional, RegionSlot update);
   AttributeSet covered(const Regional& regional, ObjectSlot object, AttributeSet attributes);
-  AttributeSet wanted(const DeclaredInterest& interest, ObjectSlot slot);
+  AttributeSet wanted(const DeclaredInterest& interest, ObjectSlot slot, bool is_active_only = false);
+  AttributeSet active(const ClassInterest& interest, std::uint16_t object_class) const;
+  void touch(ObjectSlot slot) {
+    if (watches_scope_) touched_.push_back(slot);
+  }
   void take_filter_changes();
   void take_changed_regions();
   void reconsider_around(DeclaredInterest& interest, const Regional& regional);

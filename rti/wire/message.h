@@ -19,7 +19,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 5;
+inline constexpr std::uint16_t protocol_version = 6;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
@@ -40,7 +40,9 @@ enum class MessageKind : std::uint8_t {
   create_region_over = 52, modify_ranges = 53, regional_class = 54, regional_interaction = 55, associate_regions = 56, interaction_within = 57,
   // federation management
   create_federation_execution = 20, destroy_federation_execution = 21, list_federation_executions = 22, query_management = 23,
-  // free: 24 to 27 federation management, 35 time, 39 to 45 ownership, 46 to 49 objects and declarations, 60 to 62 the connection
+  // objects and declarations
+  request_update = 39, change_transportation = 40, query_transportation = 41, instance_names = 46, spare_update = 47, local_delete = 48, advisory_switch = 49,
+  // free: 24 to 27 federation management, 35 time, 42 to 45 ownership, 60 to 62 the connection
   // baselines
   acknowledge_keyframe = 50, refuse_keyframe = 51,
   acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
@@ -59,7 +61,9 @@ enum class MessageKind : std::uint8_t {
   ownership_notice = 92, inform_ownership = 93,
   // admission
   challenge = 118, admitted = 119,
-  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 104 to 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
+  // objects and declarations
+  instance_names_answer = 104, class_relevance = 105, object_relevance = 106, transportation = 107,
+  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -116,21 +120,22 @@ struct SubscribeObjectClassMessage {
   std::uint16_t object_class = 0;
   std::uint32_t attributes = 0;
   std::uint32_t region = RegionHandle::none;
+  std::uint8_t is_passive = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes) && stream.number(message.region);
+  return stream.number(message.object_class) && stream.number(message.attributes) && stream.number(message.region) && stream.range(message.is_passive, 1);
 }
 
 template <MessageKind k>
 struct InteractionClassMessage {
   static constexpr MessageKind kind = k;
   std::uint16_t interaction_class = 0;
-  std::uint8_t is_declared = 1;  ///< 0 withdraws
+  std::uint8_t is_declared = 1;  ///< 0 withdraws; 2 subscribes passively
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, InteractionClassMessage<k>& message) {
-  return stream.number(message.interaction_class) && stream.range(message.is_declared, 1);
+  return stream.number(message.interaction_class) && stream.range(message.is_declared, k == MessageKind::subscribe_interaction_class ? 2 : 1);
 }
 using PublishInteractionClassMessage = InteractionClassMessage<MessageKind::publish_interaction_class>;
 using SubscribeInteractionClassMessage = InteractionClassMessage<MessageKind::subscribe_interaction_class>;

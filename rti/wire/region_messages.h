@@ -62,7 +62,7 @@ struct RegionalClassMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, RegionalClassMessage& message) {
-  return stream.number(message.object_class) && stream.range(message.action, static_cast<std::uint64_t>(RegionAction::request_update)) &&
+  return stream.number(message.object_class) && stream.range(message.action, static_cast<std::uint64_t>(RegionAction::add_passively)) &&
          stream.range(message.count, regions_per_message_max) && stream.rest(message.pairs, message.count * RegionalClassMessage::pair_size);
 }
 
@@ -70,13 +70,13 @@ bool exchange(Stream& stream, RegionalClassMessage& message) {
 struct RegionalInteractionMessage {
   static constexpr MessageKind kind = MessageKind::regional_interaction;
   std::uint16_t interaction_class = 0;
-  std::uint8_t is_subscribed = 1;
+  std::uint8_t is_subscribed = 1;  ///< a Listening
   std::uint16_t count = 0;
   Bytes regions;
 };
 template <class Stream>
 bool exchange(Stream& stream, RegionalInteractionMessage& message) {
-  return stream.number(message.interaction_class) && stream.range(message.is_subscribed, 1) && stream.range(message.count, regions_per_message_max) &&
+  return stream.number(message.interaction_class) && stream.range(message.is_subscribed, 2) && stream.range(message.count, regions_per_message_max) &&
          stream.rest(message.regions, message.count * sizeof(std::uint32_t));
 }
 

@@ -116,5 +116,29 @@ TEST_P(Allocations, ASteadyTickOfUpdatesInteractionsAndRegionsAllocatesNothing) 
   EXPECT_GT(counters[1].interactions, interactions + 1000u);
 }
 
+TEST(AllocationsOfNone, WhatNobodyHearsAllocatesNothingAndSendsNothing) {
+  Rig rig(Carrier::in_process);
+  Ambassador& pilot = rig.join("pilot").ambassador;
+  const AttributeSet all = harbour().attributes(vessel);
+  pilot.publish_object_class_attributes(vessel, all);
+  pilot.publish_interaction_class(hail);
+  rig.settle();
+  std::vector<ObjectHandle> vessels;
+  for (int i = 0; i < 100; ++i) vessels.push_back(pilot.register_object_instance(vessel));
+  const std::vector<std::byte> values = values_of(1.0f, 2.0f, 3.0f), words = bytes_of("ahoy");
+  const auto tick = [&](double now) {
+    for (const ObjectHandle each : vessels) pilot.update_attribute_values(each, all, values, {now, 1});
+    pilot.send_interaction(hail, words, {now, 1});
+    rig.round();
+  };
+  for (int i = 0; i < 10; ++i) tick(i);
+  const std::uint64_t bytes = pilot.counters().bytes_sent, before = allocation_count;
+  for (int i = 0; i < 100; ++i) tick(10 + i);
+  EXPECT_EQ(allocation_count - before, 0u);
+  EXPECT_EQ(pilot.counters().bytes_sent, bytes);
+  EXPECT_EQ(pilot.counters().updates_spared, 11'000u);
+  EXPECT_EQ(pilot.counters().interactions_spared, 110u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing

@@ -363,6 +363,7 @@ TEST(Fuzz, AnAmbassadorSurvivesWhateverAnRtiSends) {
   Bare bare;
   bare.enter(1, "listener");
   bare.execution.receive(1, frame_of(WatchFederatesMessage{}, SubscribeObjectClassMessage{vessel_number, 3, RegionHandle::none}));
+  bare.tick();  // the witness hears that somebody listens
   const ObjectHandle object = bare.witness.register_object_instance(vessel, "Aurora");
   bare.witness.update_attribute_values(object, AttributeSet{position, speed}, values_of(1.0f, 2.0f, 3.0f), {});
   bare.tick();

@@ -226,6 +226,18 @@ class Reader:
         assert self.u32() == 0x4B4E4952
         return ["join version %d model %016x %s %s %s" % (self.u16(), self.u64(), self.text(), self.text(), self.text())]
 
+    def passive(self):
+        return ("active", "passive")[self.u8()]
+
+    def object_attributes(self, verb):
+        return ["%s %d %s" % (verb, self.varint(), "{0:b}".format(self.varint()))]
+
+    def class_relevance(self):
+        if self.u8() == 1:
+            return ["interaction_relevance %s %d %d" % (self.model.interactions[self.varint()][0], self.varint(), self.varint())]
+        number = self.varint()
+        return ["class_relevance %s %s %s" % (self.object_class(number), self.attributes(number, self.varint()), self.attributes(number, self.varint()))]
+
     def execution(self):
         if self.u8() == 1:
             return ["execution list ends"]
@@ -240,7 +252,7 @@ UP = {
     5: lambda r: ["synchronization_point_achieved %s %d" % (r.text(), r.u8())],
     6: lambda r: ["watch_federates"],
     7: lambda r: ["publish " + r.class_and_attributes()],
-    8: lambda r: ["subscribe %s %s" % (r.class_and_attributes(), r.one_or_none())],
+    8: lambda r: ["subscribe %s %s %s" % (r.class_and_attributes(), r.one_or_none(), r.passive())],
     9: lambda r: ["publish_interaction %s %d" % (r.interaction_class(), r.u8())],
     10: lambda r: ["subscribe_interaction %s %d" % (r.interaction_class(), r.u8())],
     11: lambda r: ["register " + r.object_message()],
@@ -255,6 +267,8 @@ UP = {
     20: lambda r: ["create_execution %s %016x" % (r.text(), r.u64())],
     21: lambda r: ["destroy_execution " + r.text()],
     22: lambda r: ["list_executions"],
+    47: lambda r: r.object_attributes("spare"),
+    49: lambda r: ["attribute_relevance_advisory %d" % r.u8()],
 }
 DOWN = {
     3: lambda r: [],
@@ -275,6 +289,8 @@ DOWN = {
     75: lambda r: ["execution_created %s %d" % (r.text(), r.u8())],
     76: lambda r: ["execution_destroyed %s %d" % (r.text(), r.u8())],
     77: Reader.execution,
+    105: Reader.class_relevance,
+    106: lambda r: r.object_attributes("object_relevance"),
 }
 
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <sstream>
 
 #include "tests/places.h"
@@ -71,7 +72,7 @@ class Clerk final : public FederateAmbassador {
   }
   void subscribe(ObjectClassHandle object_class, AttributeSet set, RegionHandle region = {}) {
     ambassador.subscribe_object_class_attributes(object_class, set, region);
-    said.push_back(line_of("subscribe", name_of(object_class), names_of(object_class, set), region ? std::to_string(wire_number(region)) : "-"));
+    said.push_back(line_of("subscribe", name_of(object_class), names_of(object_class, set), region ? std::to_string(wire_number(region)) : "-", "active"));
   }
   void exchange_interactions(InteractionClassHandle interaction_class) {
     ambassador.publish_interaction_class(interaction_class);
@@ -207,6 +208,13 @@ void talk(Session& session) {
   look(0.0, 0.0);
   watchman.subscribe(vessel, motion, view);
   watchman.subscribe(ferry, everything);
+  session.tick();
+  // Each publication is answered, and each change of who hears it told; oneself does not count.
+  for (const char* line : {"class_relevance Vessel - -", "class_relevance Ferry - -", "interaction_relevance Hail 0 0", "interaction_relevance Hail 1 1",
+                           "class_relevance Vessel position+speed position+speed", "class_relevance Ferry position+speed position+speed",
+                           "class_relevance Ferry position+speed+destination position+speed+destination"})
+    pilot.heard.push_back(line);
+  for (const char* line : {"class_relevance Vessel - -", "class_relevance Ferry - -", "interaction_relevance Hail 1 1"}) watchman.heard.push_back(line);
   const ObjectHandle boat = pilot.add(vessel, "Fram"), crossing = pilot.add(ferry, "");
   watchman.add(vessel, "Watch");
   session.tick();
@@ -244,6 +252,7 @@ void talk(Session& session) {
   session.tick();
   pilot.ambassador.resign();
   pilot.said.push_back("resign");
+  watchman.heard.push_back("interaction_relevance Hail 0 0");
   session.tick();
 }
 

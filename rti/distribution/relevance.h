@@ -1,0 +1,65 @@
+// Who hears anything of a class, counted, so that those who publish it can be told when nobody does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+
+namespace rink::rti {
+
+/// Subscriptions of all federates, in whatever region. Classes of objects and of interactions are rows of one table: an interaction class is one attribute, the first.
+/// A change costs as many steps as attributes change, not as there are federates.
+class Relevance {
+ public:
+  /// What a row's listeners are to an interaction class.
+  static Subscription of(Listening listening) { return {AttributeSet(listening != Listening::none), AttributeSet(listening == Listening::active)}; }
+
+  explicit Relevance(std::size_t rows) : rows_(rows) {}
+  std::size_t row_count() const { return rows_.size(); }
+
+  /// Replaces what `federate` hears of a row. True if that may concern another federate than before: what two others hear, a third one's coming or going does not change.
+  bool set(std::uint32_t federate, std::size_t row, const Subscription& now) {
+    if (federate >= federates_.size()) federates_.resize(federate + 1);
+    auto& own = federates_[federate];
+    if (own.empty()) own.resize(rows_.size());
+    const bool is_heard_news = rows_[row].heard.change(own[row].heard, now.heard);
+    const bool is_active_news = rows_[row].active.change(own[row].active, now.active);
+    own[row] = now;
+    return is_heard_news || is_active_news;
+  }
+  /// What others than `federate` hear of a row.
+  Subscription of_others(std::uint32_t federate, std::size_t row) const {
+    const Subscription own = federate < federates_.size() && !federates_[federate].empty() ? federates_[federate][row] : Subscription();
+    return {rows_[row].heard.of_others(own.heard), rows_[row].active.of_others(own.active)};
+  }
+
+ private:
+  /// How many federates hear each attribute.
+  struct Counts {
+    std::array<std::uint32_t, attribute_max> by_attribute{};
+    AttributeSet any, several;  ///< those that at least one hears, and at least two
+
+    bool change(AttributeSet before, AttributeSet now) {
+      const AttributeSet any_before = any, several_before = several;
+      for (std::uint32_t bits = before.bits ^ now.bits; bits != 0; bits &= bits - 1) {
+        const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+        std::uint32_t& count = by_attribute[attribute.value];
+        count += now.contains(attribute) ? 1u : ~0u;
+        const AttributeSet one{attribute};
+        any = count > 0 ? any | one : any.without(one);
+        several = count > 1 ? several | one : several.without(one);
+      }
+      return any != any_before || several != several_before;
+    }
+    AttributeSet of_others(AttributeSet own) const { return several | any.without(own); }
+  };
+  struct Row {
+    Counts heard, active;
+  };
+  std::vector<Row> rows_;
+  std::vector<std::vector<Subscription>> federates_;  ///< by slot, then by row; empty where nothing was ever heard
+};
+
+}  // namespace rink::rti

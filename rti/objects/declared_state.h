@@ -1,0 +1,46 @@
+// What a federate declared and was told of it: which classes it publishes, what others hear of them, and what is kept back because nobody does.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/distribution/data_distribution.h"
+#include "rti/objects/spared_values.h"
+
+namespace rink::rti {
+
+/// The advisories of IEEE 1516.1-2010 that a federate may switch (10.27 to 10.34).
+enum class Advisory : std::uint8_t { object_class_relevance, attribute_relevance, attribute_scope, interaction_relevance };
+
+struct DeclaredState {
+  /// Of one class that is published.
+  struct Class {
+    AttributeSet published;              ///< 1 for an interaction class
+    Subscription others{AttributeSet(~0u), {}};  ///< what others hear, as the RTI told; all until then
+    AttributeSet sent;                   ///< an update of these was sent once: the RTI may hold a value
+    bool is_relevant = false;            ///< as the federate was told
+  };
+  explicit DeclaredState(const Fom& fom) : objects(fom.object_classes().size()), interactions(fom.interaction_classes().size()), spared(fom) {}
+
+  /// Before each update: false, and nothing else is to be done, if somebody hears it and nothing of it is kept back.
+  bool is_special(ObjectClassHandle object_class, AttributeSet attributes) const {
+    const AttributeSet heard = objects[object_class.value].others.heard;
+    return (attributes & heard).is_empty() || !(attributes & spared.in_class(object_class)).is_empty();
+  }
+  void note_sent(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+    AttributeSet& sent = objects[object_class.value].sent;
+    sent = sent | attributes;
+    newest = stamp;
+  }
+  bool is_on(Advisory advisory) const { return (switches >> static_cast<unsigned>(advisory) & 1u) != 0; }
+  std::size_t memory_bytes() const { return (objects.capacity() + interactions.capacity()) * sizeof(Class) + spared.memory_bytes() + relevant_objects.memory_bytes(); }
+
+  std::vector<Class> objects, interactions;
+  SparedValues spared;
+  ObjectMap<AttributeSet> relevant_objects;  ///< of own objects: attributes in somebody's scope, as far as the federate was told
+  Stamp newest;                              ///< of the latest update, be it kept back
+  unsigned switches = 0b1101;                ///< by `Advisory`; the relevance of single attributes costs messages, so it is to be asked for
+  bool is_deleting = true;                   ///< what is owned whole ends with its federate, however that leaves
+};
+
+}  // namespace rink::rti
