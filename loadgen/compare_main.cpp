@@ -217,7 +217,7 @@ void add_saturate_options(CLI::App& app, SaturateOptions& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Runs every mode x scheme x policy x client count x seed of an experiment as a server and its bots over loopback, and compares them."};
-  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, five_hundred, full, saturate");
+  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, full, virtual and others listed there");
   app.add_option("--out", options.out, "folder for the results (default: report, or report-2, ... if taken)");
   app.add_flag("--force", options.may_replace, "replace results that are already there; with --resume: go on even if experiment or program have changed");
   CLI::Option* resume = app.add_flag("--resume", options.is_resumed, "go on where an interrupted or killed run of the same experiment stopped (in --out, or the last report)");
