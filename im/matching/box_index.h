@@ -75,8 +75,7 @@ inline void BoxIndex::stage(std::uint32_t id, const Region& region) {
 
 inline void BoxIndex::stage(std::uint32_t id, const Motion& motion) {
   const std::size_t i = staged_ids_.size();
-  const ProjectedMotion projected = project(projection_, motion);
-  is_exact_ &= projected.is_exact;
+  const ProjectedMotion projected = project(projection_, motion, is_exact_);
   sizes_.count(longer_side(hull_of(projected.before, projected.now)));
   staged_ids_.resize(i + 1);
   staged_before_.resize(i + 1);

@@ -34,6 +34,7 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions) {
   place_of_.fill(regions.size(), none);
   blocks_.clear();
   add_blocks(levels_.cell_count());
+  heads_.fill(levels_.cell_count(), {0, 0});
   for (std::size_t i = 0; i < staged_.size(); ++i) insert(levels_.of(sizes_, staged_[i]).cell(staged_[i].low_x, staged_[i].low_y), staged_ids_[i], staged_[i]);
   size_ = built_size_ = staged_.size();
 }
@@ -68,7 +69,7 @@ void LiveIndex::empty(std::uint32_t block) {
     set(place, float_nowhere);
     blocks_[block].ids[place % lanes] = nobody;
   }
-  blocks_[block].next = blocks_[block].count = 0;
+  blocks_[block].next = 0;
   blocks_[block].cell = block;
 }
 
@@ -91,12 +92,13 @@ void LiveIndex::move_all(std::uint32_t from, std::uint32_t to) {
 }
 
 void LiveIndex::insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box) {
-  if (blocks_[cell].count == lanes) {
+  if (heads_[cell].count == lanes) {
     const std::uint32_t block = take_block();
     move_all(cell, block);
     blocks_[cell].next = block;
+    heads_[cell] = {0, 1};
   }
-  set(cell * lanes + blocks_[cell].count++, id, box);
+  set(cell * lanes + heads_[cell].count++, id, box);
 }
 
 /// Widens the level to hold the box.
@@ -137,12 +139,13 @@ void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& reg
 void LiveIndex::remove(std::uint32_t id) {
   if (!holds(id)) return;
   const std::uint32_t cell = blocks_[place_of_[id] / lanes].cell;
-  if (blocks_[cell].count == 0) {
+  if (heads_[cell].count == 0) {
     const std::uint32_t next = blocks_[cell].next;
     move_all(next, cell);
+    heads_[cell] = {lanes, blocks_[cell].next != 0};
     free_.push_back(next);
   }
-  const std::uint32_t place = place_of_[id], last = cell * lanes + --blocks_[cell].count;
+  const std::uint32_t place = place_of_[id], last = cell * lanes + --heads_[cell].count;
   if (place != last) set(place, blocks_[cell].ids[last % lanes], box(last));
   set(last, float_nowhere);
   blocks_[cell].ids[last % lanes] = nobody;
@@ -164,20 +167,22 @@ std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretch
     cells_changed(level, probe.before, probe.now).for_each_run(level, [&](std::uint32_t first, std::uint32_t last) {
       stretches.push_back({first * stride, (last + 1) * stride});
       for (std::uint32_t cell = first; cell <= last; ++cell) {
-        const Block& block = blocks_[cell];
-        __builtin_prefetch(block.low_x), __builtin_prefetch(block.high_x);
-        candidates += block.count;
-        for (std::uint32_t next = block.next; next != 0; next = blocks_[next].next) {
-          stretches.push_back({next * stride, (next + 1) * stride});
-          candidates += lanes;
-        }
+        candidates += heads_[cell].count;
+        for (std::uint32_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
+        if (heads_[cell].has_more) candidates += find_more(blocks_[cell].next, stretches);
       }
     });
   return candidates;
 }
 
+std::size_t LiveIndex::find_more(std::uint32_t block, Buffer<Stretch>& stretches) const {
+  std::size_t candidates = 0;
+  for (; block != 0; block = blocks_[block].next, candidates += lanes) stretches.push_back({block * stride, (block + 1) * stride});
+  return candidates;
+}
+
 std::size_t LiveIndex::bytes() const {
-  return sizeof(Block) * blocks_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (free_.capacity() + place_of_.capacity() + staged_ids_.capacity());
+  return sizeof(Block) * blocks_.capacity() + sizeof(Head) * heads_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (free_.capacity() + place_of_.capacity() + staged_ids_.capacity());
 }
 
 }  // namespace rink::im

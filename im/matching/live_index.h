@@ -39,12 +39,17 @@ class LiveIndex {
   struct alignas(64) Block {
     float low_x[lanes], low_y[lanes], high_x[lanes], high_y[lanes];
     std::uint32_t ids[lanes];
-    std::uint32_t next;   // of the same cell; 0: none, for that is the first of a cell
-    std::uint32_t count;  // of boxes, in the first lanes
+    std::uint32_t next;  // of the same cell; 0: none, for that is the first of a cell
     std::uint32_t cell;
   };
   static_assert(sizeof(Block) == 192);
   static constexpr std::uint32_t stride = sizeof(Block) / sizeof(float);
+
+  /// Of a cell. Apart from the blocks, so that finding candidates waits for none.
+  struct Head {
+    std::uint8_t count : 7;  // of boxes in its first block, in the first lanes
+    std::uint8_t has_more : 1;
+  };
 
   FloatBox box(std::uint32_t place) const;
   void set(std::uint32_t place, const FloatBox& box);
@@ -56,6 +61,7 @@ class LiveIndex {
   void insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box);
   void put(std::uint32_t id, const Region& region);
   std::uint32_t cell_for(const FloatBox& box);
+  std::size_t find_more(std::uint32_t block, Buffer<Stretch>& stretches) const;
   bool holds(std::uint32_t id) const { return id < place_of_.size() && place_of_[id] != none; }
 
   Projection projection_;
@@ -65,6 +71,7 @@ class LiveIndex {
   CellLevels levels_;
   Buffer<FloatBox> staged_;
   Buffer<std::uint32_t> staged_ids_;
+  Buffer<Head> heads_;              // by cell
   Buffer<Block> blocks_;            // those of the cells first
   Buffer<std::uint32_t> free_;      // blocks
   Buffer<std::uint32_t> place_of_;  // of an id: block * lanes + lane

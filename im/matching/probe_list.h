@@ -11,15 +11,15 @@ namespace rink::im {
 /// A motion with both its places projected; `before` may be nowhere.
 struct ProjectedMotion {
   FloatBox before, now;
-  bool is_newcomer, is_exact;
 };
 
-inline ProjectedMotion project(const Projection& projection, const Motion& motion) {
-  ProjectedMotion projected{float_nowhere, projection(motion.now), is_nowhere(motion.before), false};
-  projected.is_exact = projection.is_exact(motion.now, projected.now);
-  if (projected.is_newcomer) return projected;
+/// Clears `is_exact` if something is lost.
+inline ProjectedMotion project(const Projection& projection, const Motion& motion, bool& is_exact) {
+  ProjectedMotion projected{float_nowhere, projection(motion.now)};
+  if (is_exact) is_exact = projection.is_exact(motion.now, projected.now);
+  if (is_nowhere(motion.before)) return projected;
   projected.before = projection(motion.before);
-  projected.is_exact &= projection.is_exact(motion.before, projected.before);
+  if (is_exact) is_exact = projection.is_exact(motion.before, projected.before);
   return projected;
 }
 
@@ -31,8 +31,7 @@ class ProbeList {
     probes_.clear();
   }
   void add(std::uint32_t id, const Motion& motion) {
-    const ProjectedMotion projected = project(projection_, motion);
-    is_exact_ &= projected.is_exact;
+    const ProjectedMotion projected = project(projection_, motion, is_exact_);
     probes_.push_back({projected.before, projected.now, id, 0});
   }
 

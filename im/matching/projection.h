@@ -2,7 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "im/filter.h"
 
@@ -29,30 +34,51 @@ inline float longer_side(const FloatBox& box) { return std::max(box.high_x - box
 /// test; rounding outward would leave the same pairs in doubt and two roundings to write.
 class Projection {
  public:
-  explicit Projection(double origin_x = 0.0, double origin_y = 0.0) : origin_x_(origin_x), origin_y_(origin_y) {}
+  explicit Projection(double origin_x = 0.0, double origin_y = 0.0) : origin_{origin_x, origin_y} {}
 
+#ifdef __SSE2__
+  // Two coordinates at a time; the compiler does not see it.
   FloatBox operator()(const Region& region) const {
-    return {project(region.low_x, origin_x_), project(region.low_y, origin_y_), project(region.high_x, origin_x_), project(region.high_y, origin_y_)};
+    const __m128 box = _mm_movelh_ps(project(&region.low_x), project(&region.high_x));
+    return std::bit_cast<FloatBox>(box);
   }
-
   /// True if nothing of `region` is lost. Among boxes that all are exact a tie is an overlap: whole-numbered cells need no second test.
   bool is_exact(const Region& region, const FloatBox& box) const {
-    return is_exact(region.low_x, box.low_x, origin_x_) & is_exact(region.low_y, box.low_y, origin_y_) & is_exact(region.high_x, box.high_x, origin_x_) &
-           is_exact(region.high_y, box.high_y, origin_y_);
+    const __m128 floats = std::bit_cast<__m128>(box);
+    const __m128d low = is_exact(&region.low_x, floats), high = is_exact(&region.high_x, _mm_movehl_ps(floats, floats));
+    const __m128 bounded = _mm_cmplt_ps(_mm_andnot_ps(_mm_set1_ps(-0.0f), floats), _mm_set1_ps(float_max));
+    return _mm_movemask_pd(_mm_and_pd(low, high)) == 3 && _mm_movemask_ps(bounded) == 15;
   }
 
  private:
+  __m128d origin() const { return _mm_loadu_pd(origin_); }
   /// Adding zero turns a negative zero into a positive one, whose difference with a zero has no sign.
+  __m128 project(const double* coordinates) const {
+    const __m128d bound = _mm_set1_pd(float_max), offset = _mm_sub_pd(_mm_loadu_pd(coordinates), origin());
+    return _mm_add_ps(_mm_cvtpd_ps(_mm_min_pd(_mm_max_pd(offset, _mm_sub_pd(_mm_setzero_pd(), bound)), bound)), _mm_setzero_ps());
+  }
+  /// The coordinate is a function of its projection.
+  __m128d is_exact(const double* coordinates, __m128 projected) const { return _mm_cmpeq_pd(_mm_add_pd(_mm_cvtps_pd(projected), origin()), _mm_loadu_pd(coordinates)); }
+#else
+  FloatBox operator()(const Region& region) const {
+    return {project(region.low_x, origin_[0]), project(region.low_y, origin_[1]), project(region.high_x, origin_[0]), project(region.high_y, origin_[1])};
+  }
+  bool is_exact(const Region& region, const FloatBox& box) const {
+    return is_exact(region.low_x, box.low_x, origin_[0]) && is_exact(region.low_y, box.low_y, origin_[1]) && is_exact(region.high_x, box.high_x, origin_[0]) &&
+           is_exact(region.high_y, box.high_y, origin_[1]);
+  }
+
+ private:
   static float project(double coordinate, double origin) {
     constexpr double bound = float_max;
     return static_cast<float>(std::min(std::max(coordinate - origin, -bound), bound)) + 0.0f;
   }
-  /// The coordinate is a function of its projection.
   static bool is_exact(double coordinate, float projected, double origin) {
-    return (static_cast<double>(projected) + origin == coordinate) & (projected > -float_max) & (projected < float_max);
+    return static_cast<double>(projected) + origin == coordinate && projected > -float_max && projected < float_max;
   }
+#endif
 
-  double origin_x_, origin_y_;
+  double origin_[2];
 };
 
 }  // namespace rink::im
