@@ -11,9 +11,12 @@ bool RegionHistory::set(std::uint32_t id, const Region& region) {
   if (id >= motions_.size()) grow(id + std::size_t{1});
   Motion& motion = motions_[id];
   if (motion.now == region) return false;
+  if (!is_listed(id)) {
+    moved_.push_back(id);
+    listed_[id / 64] |= std::uint64_t{1} << id % 64;
+    motion.before = motion.now;
+  }
   motion.now = region;
-  if (!is_listed(id)) moved_.push_back(id);
-  listed_[id / 64] |= std::uint64_t{1} << id % 64;
   return true;
 }
 
@@ -28,34 +31,40 @@ void RegionHistory::grow(std::size_t count) {
 bool RegionHistory::remove(std::uint32_t id) {
   if (id >= motions_.size() || is_nowhere(motions_[id].now)) return false;
   motions_[id] = Motion{};
+  has_removed_ = true;
   return true;
 }
 
 void RegionHistory::unlist(std::uint32_t id) { listed_[id / 64] &= ~(std::uint64_t{1} << id % 64); }
 
-std::span<const std::uint32_t> RegionHistory::take_moved() {
+/// Takes those out of the list that are nowhere.
+void RegionHistory::drop_removed() {
   std::size_t kept = 0;
-  bool is_sorted = true;
   for (const std::uint32_t id : moved_.span()) {
-    if (motions_[id].now == motions_[id].before) {
-      unlist(id);
-      continue;
-    }
-    is_sorted &= kept == 0 || moved_[kept - 1] < id;
-    moved_[kept++] = id;
+    moved_[kept] = id;
+    if (is_nowhere(motions_[id].now)) unlist(id);
+    else ++kept;
   }
   moved_.resize(kept);
+  has_removed_ = false;
+}
+
+std::span<const std::uint32_t> RegionHistory::take_moved() {
+  for (const std::uint32_t id : settled_.span())
+    if (!is_listed(id)) motions_[id].before = motions_[id].now;
+  settled_.clear();
+  if (has_removed_) drop_removed();
   // Whoever moves everything does so in order; then there is nothing to sort.
-  if (!is_sorted) std::sort(moved_.data(), moved_.data() + kept);
+  if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size())) std::sort(moved_.data(), moved_.data() + moved_.size());
   return moved_.span();
 }
 
 void RegionHistory::settle() {
-  for (const std::uint32_t id : moved_.span()) {
-    motions_[id].before = motions_[id].now;
-    unlist(id);
-  }
-  moved_.clear();
+  if (moved_.size() > listed_.size()) listed_.fill(listed_.size(), 0);
+  else
+    for (const std::uint32_t id : moved_.span()) unlist(id);
+  settled_.clear();
+  std::swap(moved_, settled_);
 }
 
 }  // namespace rink::im

@@ -27,7 +27,8 @@ struct alignas(64) Motion {
   Region before = nowhere, now = nowhere;
 };
 
-/// The regions of all entities, or of all subscribers, by id. Memory: 64 bytes and a bit per id up to the largest one used, 4 more per id that moved.
+/// The regions of all entities, or of all subscribers, by id. Memory: 64 bytes and a bit per id up to the largest one used, 8 more per id that moved.
+/// Most often all move at every match, so `before` is written when a region first moves, to its line that is at hand anyway, and not by a pass over all.
 class RegionHistory {
  public:
   /// Ids are less than this.
@@ -43,7 +44,7 @@ class RegionHistory {
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
   bool has_moved(std::uint32_t id) const { return is_listed(id); }
 
-  /// Sorts out and returns those whose place now is not the one before, in ascending order; has_moved agrees from here to `settle`.
+  /// Those that were set to another place since the last match (and maybe back again), in ascending order; has_moved and `before` agree from here to `settle`.
   std::span<const std::uint32_t> take_moved();
   /// Makes now the new before.
   void settle();
@@ -51,16 +52,19 @@ class RegionHistory {
   /// Asks the processor for a motion that will be wanted soon.
   void prefetch(std::uint32_t id) const { __builtin_prefetch(&motions_[id]); }
 
-  std::size_t bytes() const { return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() + sizeof(std::uint32_t) * moved_.capacity(); }
+  std::size_t bytes() const { return sizeof(Motion) * motions_.capacity() + sizeof(std::uint64_t) * listed_.capacity() + sizeof(std::uint32_t) * (moved_.capacity() + settled_.capacity()); }
 
  private:
   void grow(std::size_t count);
   void unlist(std::uint32_t id);
+  void drop_removed();
   bool is_listed(std::uint32_t id) const { return (listed_[id / 64] >> id % 64 & 1u) != 0; }
 
   Buffer<Motion> motions_;
   Buffer<std::uint64_t> listed_;  // a bit for each id
   Buffer<std::uint32_t> moved_;
+  Buffer<std::uint32_t> settled_;   // moved at the match before: their `before` is out of date unless they move again
+  bool has_removed_ = false;
 };
 
 }  // namespace rink::im

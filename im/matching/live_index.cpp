@@ -1,6 +1,7 @@
 // Keeps boxes in blocks of lanes, cell by cell.
 #include "im/matching/live_index.h"
 
+#include <bit>
 #include <cassert>
 
 namespace rink::im {
@@ -19,7 +20,8 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions) {
   is_built_ = is_exact_ = true;
   has_grown_ = false;
   sizes_.clear();
-  staged_.clear(), staged_ids_.clear(), free_.clear();
+  staged_.clear(), staged_ids_.clear();
+  for (Buffer<std::uint32_t>& runs : free_) runs.clear();
   staged_.reserve(regions.size()), staged_ids_.reserve(regions.size());
   for (std::uint32_t id = 0; id < regions.size(); ++id) {
     if (is_nowhere(regions[id].now) || regions.has_moved(id)) continue;
@@ -57,6 +59,11 @@ void LiveIndex::set(std::uint32_t place, std::uint32_t id, const FloatBox& box) 
   place_of_[id] = place;
 }
 
+void LiveIndex::clear(std::uint32_t place) {
+  set(place, float_nowhere);
+  blocks_[place / lanes].ids[place % lanes] = nobody;
+}
+
 void LiveIndex::add_blocks(std::uint32_t count) {
   const std::size_t first = blocks_.size();
   assert(first + count < none / stride);  // places and stretches are counted in 32 bits
@@ -65,37 +72,48 @@ void LiveIndex::add_blocks(std::uint32_t count) {
 }
 
 void LiveIndex::empty(std::uint32_t block) {
-  for (std::uint32_t place = block * lanes; place < (block + 1) * lanes; ++place) {
-    set(place, float_nowhere);
-    blocks_[block].ids[place % lanes] = nobody;
-  }
-  blocks_[block].next = 0;
+  for (std::uint32_t place = block * lanes; place < (block + 1) * lanes; ++place) clear(place);
+  blocks_[block].run = blocks_[block].run_size = blocks_[block].run_capacity = 0;
   blocks_[block].cell = block;
 }
 
-/// An empty one that belongs to no cell.
-std::uint32_t LiveIndex::take_block() {
-  if (free_.empty()) {
-    add_blocks(1);
-    return static_cast<std::uint32_t>(blocks_.size() - 1);
+/// Blocks of no cell; `size` is a power of two.
+std::uint32_t LiveIndex::take_run(std::uint32_t size) {
+  Buffer<std::uint32_t>& runs = free_[static_cast<std::size_t>(std::countr_zero(size))];
+  if (!runs.empty()) {
+    const std::uint32_t run = runs[runs.size() - 1];
+    runs.resize(runs.size() - 1);
+    return run;
   }
-  const std::uint32_t block = free_[free_.size() - 1];
-  free_.resize(free_.size() - 1);
-  return block;
+  const auto run = static_cast<std::uint32_t>(blocks_.size());
+  add_blocks(size);
+  return run;
 }
 
-/// Moves a full block's boxes and what hangs on it to another place of the same cell.
-void LiveIndex::move_all(std::uint32_t from, std::uint32_t to) {
+/// Of a full block, to another of the same cell.
+void LiveIndex::copy_boxes(std::uint32_t from, std::uint32_t to) {
+  const Block old = blocks_[to];
   blocks_[to] = blocks_[from];
+  blocks_[to].run = old.run, blocks_[to].run_size = old.run_size, blocks_[to].run_capacity = old.run_capacity;
   for (std::uint32_t lane = 0; lane < lanes; ++lane) place_of_[blocks_[to].ids[lane]] = to * lanes + lane;
-  empty(from);
+}
+
+/// Makes room for one block more. A run never shrinks: who leaves a crowd often comes back.
+void LiveIndex::grow_run(std::uint32_t cell) {
+  const std::uint32_t run = blocks_[cell].run, size = blocks_[cell].run_size, capacity = blocks_[cell].run_capacity;
+  if (size < capacity) return;
+  const std::uint32_t wider = take_run(std::max(1u, 2 * capacity));
+  for (std::uint32_t block = 0; block < size; ++block) copy_boxes(run + block, wider + block);
+  if (capacity != 0) free_[static_cast<std::size_t>(std::countr_zero(capacity))].push_back(run);
+  blocks_[cell].run = wider;
+  blocks_[cell].run_capacity = std::max(1u, 2 * capacity);
 }
 
 void LiveIndex::insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box) {
   if (heads_[cell].count == lanes) {
-    const std::uint32_t block = take_block();
-    move_all(cell, block);
-    blocks_[cell].next = block;
+    grow_run(cell);
+    copy_boxes(cell, blocks_[cell].run + blocks_[cell].run_size++);
+    for (std::uint32_t place = cell * lanes; place < (cell + 1) * lanes; ++place) clear(place);
     heads_[cell] = {0, 1};
   }
   set(cell * lanes + heads_[cell].count++, id, box);
@@ -140,15 +158,12 @@ void LiveIndex::remove(std::uint32_t id) {
   if (!holds(id)) return;
   const std::uint32_t cell = blocks_[place_of_[id] / lanes].cell;
   if (heads_[cell].count == 0) {
-    const std::uint32_t next = blocks_[cell].next;
-    move_all(next, cell);
-    heads_[cell] = {lanes, blocks_[cell].next != 0};
-    free_.push_back(next);
+    copy_boxes(blocks_[cell].run + --blocks_[cell].run_size, cell);
+    heads_[cell] = {lanes, blocks_[cell].run_size != 0};
   }
   const std::uint32_t place = place_of_[id], last = cell * lanes + --heads_[cell].count;
   if (place != last) set(place, blocks_[cell].ids[last % lanes], box(last));
-  set(last, float_nowhere);
-  blocks_[cell].ids[last % lanes] = nobody;
+  clear(last);
   place_of_[id] = none;
   --size_;
 }
@@ -169,20 +184,18 @@ std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretch
       for (std::uint32_t cell = first; cell <= last; ++cell) {
         candidates += heads_[cell].count;
         for (std::uint32_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
-        if (heads_[cell].has_more) candidates += find_more(blocks_[cell].next, stretches);
+        if (heads_[cell].has_more) {
+          const Block& head = blocks_[cell];
+          stretches.push_back({head.run * stride, (head.run + head.run_size) * stride});
+          candidates += head.run_size * lanes;
+        }
       }
     });
   return candidates;
 }
 
-std::size_t LiveIndex::find_more(std::uint32_t block, Buffer<Stretch>& stretches) const {
-  std::size_t candidates = 0;
-  for (; block != 0; block = blocks_[block].next, candidates += lanes) stretches.push_back({block * stride, (block + 1) * stride});
-  return candidates;
-}
-
 std::size_t LiveIndex::bytes() const {
-  return sizeof(Block) * blocks_.capacity() + sizeof(Head) * heads_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (free_.capacity() + place_of_.capacity() + staged_ids_.capacity());
+  return sizeof(Block) * blocks_.capacity() + sizeof(Head) * heads_.capacity() + sizeof(FloatBox) * staged_.capacity() + sizeof(std::uint32_t) * (place_of_.capacity() + staged_ids_.capacity());
 }
 
 }  // namespace rink::im

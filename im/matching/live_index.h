@@ -1,6 +1,7 @@
 // Boxes at rest, each stored once in its cell, where few of them move at a time: they are put elsewhere in place and nothing else is touched.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -13,7 +14,7 @@
 namespace rink::im {
 
 /// Every cell has a block of eight lanes, three lines of memory, adjacent cells adjacent ones; so a row of cells is one stretch to scan. What does not fit is in
-/// further blocks, all full, that hang on the first. Empty lanes hold nowhere. About 60 bytes per box where boxes are spread evenly.
+/// a run of further blocks elsewhere, all full. Empty lanes hold nowhere. About 60 bytes per box where boxes are spread evenly.
 class LiveIndex {
  public:
   /// Never the id of a box: an empty lane's.
@@ -39,8 +40,8 @@ class LiveIndex {
   struct alignas(64) Block {
     float low_x[lanes], low_y[lanes], high_x[lanes], high_y[lanes];
     std::uint32_t ids[lanes];
-    std::uint32_t next;  // of the same cell; 0: none, for that is the first of a cell
     std::uint32_t cell;
+    std::uint32_t run, run_size, run_capacity;  // of the first block of a cell: its further blocks, and for how many there is room
   };
   static_assert(sizeof(Block) == 192);
   static constexpr std::uint32_t stride = sizeof(Block) / sizeof(float);
@@ -55,13 +56,14 @@ class LiveIndex {
   void set(std::uint32_t place, const FloatBox& box);
   void set(std::uint32_t place, std::uint32_t id, const FloatBox& box);
   void add_blocks(std::uint32_t count);
-  std::uint32_t take_block();
+  std::uint32_t take_run(std::uint32_t size);
+  void grow_run(std::uint32_t cell);
+  void clear(std::uint32_t place);
   void empty(std::uint32_t block);
-  void move_all(std::uint32_t from, std::uint32_t to);
+  void copy_boxes(std::uint32_t from, std::uint32_t to);
   void insert(std::uint32_t cell, std::uint32_t id, const FloatBox& box);
   void put(std::uint32_t id, const Region& region);
   std::uint32_t cell_for(const FloatBox& box);
-  std::size_t find_more(std::uint32_t block, Buffer<Stretch>& stretches) const;
   bool holds(std::uint32_t id) const { return id < place_of_.size() && place_of_[id] != none; }
 
   Projection projection_;
@@ -73,7 +75,7 @@ class LiveIndex {
   Buffer<std::uint32_t> staged_ids_;
   Buffer<Head> heads_;              // by cell
   Buffer<Block> blocks_;            // those of the cells first
-  Buffer<std::uint32_t> free_;      // blocks
+  std::array<Buffer<std::uint32_t>, 28> free_;  // runs, by the power of two that they are long
   Buffer<std::uint32_t> place_of_;  // of an id: block * lanes + lane
 };
 
