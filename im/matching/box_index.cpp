@@ -7,7 +7,7 @@ namespace rink::im {
 namespace {
 
 /// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too many rows. Columns are cheap: the cells of a row lie one after the other.
-constexpr CellShape shape{16.0, 3.0, 2.0};
+constexpr CellShape shape{32.0, 6.0, 2.0};
 
 }  // namespace
 
@@ -18,17 +18,17 @@ void BoxIndex::begin(const Region& world, std::size_t count_max, bool is_moving)
   is_moving_ = is_moving;
   is_exact_ = true;
   sizes_.clear();
-  staged_ids_.clear(), staged_before_.clear(), staged_now_.clear();
-  staged_ids_.reserve(count_max), staged_now_.reserve(count_max);
-  if (is_moving) staged_before_.reserve(count_max);
+  staged_count_ = 0;
+  staged_ids_.resize(count_max), staged_now_.resize(count_max);
+  if (is_moving) staged_before_.resize(count_max);
 }
 
 FloatBox BoxIndex::hull(std::size_t staged) const { return is_moving_ ? hull_of(staged_before_[staged], staged_now_[staged]) : staged_now_[staged]; }
 
 void BoxIndex::count_cells() {
   starts_.fill(levels_.cell_count() + std::size_t{1}, 0);
-  cells_.resize(staged_ids_.size());
-  for (std::size_t i = 0; i < staged_ids_.size(); ++i) {
+  cells_.resize(staged_count_);
+  for (std::size_t i = 0; i < staged_count_; ++i) {
     const FloatBox box = hull(i);
     CellLevel& level = levels_.of(sizes_, box);
     level.widen(box);
@@ -41,7 +41,7 @@ void BoxIndex::count_cells() {
 void BoxIndex::sort() {
   std::uint32_t end = 0;
   for (std::size_t cell = 0; cell < starts_.size(); ++cell) starts_[cell] = end += starts_[cell];
-  const std::size_t count = staged_ids_.size();
+  const std::size_t count = staged_count_;
   ids_.reserve(count + BoxStore::readable_past_the_end);
   ids_.resize(count);
   for (std::size_t i = 0; i < BoxStore::readable_past_the_end; ++i) ids_.data()[count + i] = 0;
@@ -56,7 +56,7 @@ void BoxIndex::sort() {
 }
 
 void BoxIndex::build() {
-  levels_.choose(sizes_, staged_now_.span(), world_, shape);
+  levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_, shape);
   count_cells();
   sort();
 }

@@ -53,7 +53,8 @@ class BoxIndex {
   bool is_moving_ = false, is_exact_ = true;
   SizeLevels sizes_;
   CellLevels levels_;
-  // As staged.
+  // As staged; the buffers have room for what was announced.
+  std::size_t staged_count_ = 0;
   Buffer<FloatBox> staged_before_, staged_now_;
   Buffer<std::uint32_t> staged_ids_, cells_;
   // In the order of the cells.
@@ -63,26 +64,19 @@ class BoxIndex {
 };
 
 inline void BoxIndex::stage(std::uint32_t id, const Region& region) {
-  const std::size_t i = staged_ids_.size();
   const FloatBox box = projection_(region);
   if (is_exact_) is_exact_ = projection_.is_exact(region, box);
   sizes_.count(longer_side(box));
-  staged_ids_.resize(i + 1);
-  staged_now_.resize(i + 1);
-  staged_ids_[i] = id;
-  staged_now_[i] = box;
+  staged_ids_[staged_count_] = id;
+  staged_now_[staged_count_++] = box;
 }
 
 inline void BoxIndex::stage(std::uint32_t id, const Motion& motion) {
-  const std::size_t i = staged_ids_.size();
   const ProjectedMotion projected = project(projection_, motion, is_exact_);
   sizes_.count(longer_side(hull_of(projected.before, projected.now)));
-  staged_ids_.resize(i + 1);
-  staged_before_.resize(i + 1);
-  staged_now_.resize(i + 1);
-  staged_ids_[i] = id;
-  staged_before_[i] = projected.before;
-  staged_now_[i] = projected.now;
+  staged_ids_[staged_count_] = id;
+  staged_before_[staged_count_] = projected.before;
+  staged_now_[staged_count_++] = projected.now;
 }
 
 }  // namespace rink::im

@@ -15,7 +15,7 @@ Change change(std::uint64_t key) {
 
 /// Runs are short.
 void sort_run(std::uint64_t* first, std::uint64_t* end) {
-  if (end - first > 32) return std::sort(first, end);
+  if (end - first > 32) return std::is_sorted(first, end) ? void() : std::sort(first, end);
   for (std::uint64_t* i = first + 1; i < end; ++i) {
     const std::uint64_t value = *i;
     std::uint64_t* place = i;
@@ -29,8 +29,11 @@ void sort_run(std::uint64_t* first, std::uint64_t* end) {
 void ChangeList::add_by_subscriber(const Join& join) {
   std::size_t count = keys_.size();
   keys_.resize(count + join.found_count());
-  for (std::size_t i = 0; i < join.asker_count(); ++i)
+  for (std::size_t i = 0; i < join.asker_count(); ++i) {
+    const std::size_t first = count;
     for (const std::uint32_t found : join.found(i)) keys_[count++] = key(join.asker(i), found & ~entered_bit, (found & entered_bit) != 0);
+    sort_run(keys_.data() + first, keys_.data() + count);
+  }
 }
 
 void ChangeList::add_by_subscriber(const Join& join, const RegionHistory& entities) {
@@ -50,12 +53,12 @@ void ChangeList::sort(std::size_t subscriber_count) {
   // Below this, going over all subscribers takes longer than comparing.
   if (keys_.size() * 8 < subscriber_count || keys_.size() < 64) return std::sort(keys_.data(), keys_.data() + keys_.size());
   starts_.fill(subscriber_count + 1, 0);
-  for (const std::uint64_t key : keys_.span()) ++starts_[key >> 32];
-  std::uint32_t end = 0;
-  for (std::size_t i = 0; i <= subscriber_count; ++i) starts_[i] = end += starts_[i];
+  for (const std::uint64_t key : keys_.span()) ++starts_[(key >> 32) + 1];
+  for (std::size_t i = 1; i <= subscriber_count; ++i) starts_[i] += starts_[i - 1];
   sorted_.resize(keys_.size());
-  for (const std::uint64_t key : keys_.span()) sorted_[--starts_[key >> 32]] = key;
-  for (std::size_t i = 0; i < subscriber_count; ++i) sort_run(sorted_.data() + starts_[i], sorted_.data() + starts_[i + 1]);
+  // Afterwards a start is where its run ends. Runs from one join are in order already.
+  for (const std::uint64_t key : keys_.span()) sorted_[starts_[key >> 32]++] = key;
+  for (std::size_t i = 0, first = 0; i < subscriber_count; first = starts_[i++]) sort_run(sorted_.data() + first, sorted_.data() + starts_[i]);
   std::swap(keys_, sorted_);
 }
 

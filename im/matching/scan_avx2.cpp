@@ -101,11 +101,11 @@ RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
       for (std::size_t i = stretches[stretch].first; i < stretches[stretch].end; i += candidates.stride) {
+        // Reading `before` only of boxes whose clearance now is within what may have moved saves half of the loads and takes longer: no processor foresees which.
         const __m256 then = clearance(candidates.before, i, before), today = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
         unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_xor_ps(then, today))) & valid;
         const unsigned doubtful = judge.is_needed ? (ties(then) | ties(today)) & valid : 0;
-        // Most moves change nothing, so this is foreseen.
         if ((hits | doubtful) == 0) continue;
         const __m256i entered = _mm256_andnot_si256(_mm256_castps_si256(today), _mm256_set1_epi32(static_cast<int>(entered_bit)));
         __m256i ids = _mm256_or_si256(load(candidates.ids + i), entered);

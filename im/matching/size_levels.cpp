@@ -21,6 +21,7 @@ void SizeLevels::close_level() {
 }
 
 void SizeLevels::choose() {
+  end_run(0);
   size_ = 0;
   std::size_t top = 0;  // bucket of the largest boxes of the present level
   for (std::size_t bucket = counts_.size(); bucket-- > 0;) {

@@ -12,24 +12,38 @@ class SizeLevels {
  public:
   static constexpr std::size_t level_max = 8;
 
-  void clear() { counts_.fill(0); }
-  void count(float side) { ++counts_[bucket(side)]; }
+  void clear() {
+    counts_.fill(0);
+    run_bucket_ = run_length_ = 0;
+  }
+  /// Sides alike come one after the other; counting each in memory would wait for the one before.
+  void count(float side) {
+    const std::uint32_t bucket = bucket_of(side);
+    if (bucket != run_bucket_) end_run(bucket);
+    ++run_length_;
+  }
   /// Levels from the largest boxes down, each of a factor of at most eight (the last of all below); a level with few boxes joins the one above it.
   /// There is at least one level, and every side has one, counted or not.
   void choose();
 
   std::size_t size() const { return size_; }
-  std::size_t level(float side) const { return level_of_[bucket(side)]; }
+  std::size_t level(float side) const { return level_of_[bucket_of(side)]; }
   std::size_t population(std::size_t level) const { return populations_[level]; }
 
  private:
   void close_level();
-  static std::size_t bucket(float side) { return std::bit_cast<std::uint32_t>(side) >> 23 & 0xFFu; }
+  void end_run(std::uint32_t next) {
+    counts_[run_bucket_] += run_length_;
+    run_bucket_ = next;
+    run_length_ = 0;
+  }
+  static std::uint32_t bucket_of(float side) { return std::bit_cast<std::uint32_t>(side) >> 23 & 0xFFu; }
 
   std::array<std::uint32_t, 256> counts_{};
   std::array<std::uint8_t, 256> level_of_{};
   std::array<std::size_t, level_max> populations_{};
   std::size_t size_ = 0;
+  std::uint32_t run_bucket_ = 0, run_length_ = 0;
 };
 
 }  // namespace rink::im
