@@ -1,4 +1,4 @@
-// The RTI beside raw Asio: one tick sent to many clients, and joins; every figure counts what arrived.
+// The RTI beside raw Asio: one tick sent to many clients; every figure counts what arrived.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -171,26 +171,7 @@ void raw_tick_send(benchmark::State& state) {
   state.counters["bytes_per_client"] = static_cast<double>(sinks.received()) / ticks / clients;
 }
 
-/// Joins of so many federates from one thread to another, over TCP.
-void rink_join(benchmark::State& state) {
-  const int federates = static_cast<int>(state.range(0));
-  ensure_file_limit(static_cast<std::size_t>(2 * federates) + 64);
-  for (auto _ : state) {
-    FederationExecution execution(model(), {});
-    FederationHost host(execution);
-    TcpTransport tcp;
-    host.add(tcp);
-    Sinks sinks(tcp.listen("127.0.0.1", 0), federates, true);
-    while (execution.federate_count() < static_cast<std::size_t>(federates)) {
-      host.poll(1ms);
-      host.match();
-      host.flush();
-    }
-  }
-}
-
 BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_tcp")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
 BENCHMARK(rink_tick_send)->Name("rti/tick_send/rink")->ArgName("clients")->Arg(100)->Arg(1000)->UseRealTime()->Iterations(60)->Unit(benchmark::kMillisecond);
-BENCHMARK(rink_join)->Name("rti/join")->ArgName("federates")->Arg(1000)->UseRealTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

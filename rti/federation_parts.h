@@ -117,6 +117,8 @@ class FederationExecution::Parts {
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   /// All who know it are told, who deleted it too: up to then it may hear of it.
   void delete_object(ObjectSlot object);
+  /// True, and counted, if an object of that handle was here: who may delete it did so while this was on its way, which is nobody's crime.
+  bool is_late(ObjectHandle handle);
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);

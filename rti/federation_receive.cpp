@@ -124,10 +124,16 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   DeleteObjectMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object) return Violation::unknown_name;
+  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
   if (objects_[object].owner != slot && ownership_.owner_of(object, privilege_to_delete_object) != slot) return Violation::not_owned;
   delete_object(object);
   return std::nullopt;
+}
+
+bool FederationExecution::Parts::is_late(ObjectHandle handle) {
+  const bool was_here = objects_.was_registered(handle);
+  counters_.late_requests += was_here ? 1u : 0u;
+  return was_here;
 }
 
 void FederationExecution::Parts::delete_object(ObjectSlot object) {
@@ -171,7 +177,7 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
 
 Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values) {
   const ObjectSlot object = objects_.find(handle);
-  if (object == no_object && objects_.was_registered(handle)) return ++counters_.late_requests, std::nullopt;  // who may delete it did so meanwhile
+  if (object == no_object && is_late(handle)) return std::nullopt;
   if (object == no_object || objects_[object].object_class != message.object_class) return Violation::unknown_name;
   if (objects_[object].owner != slot && !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes))) return Violation::not_owned;
   Federate& owner = federates_[slot];

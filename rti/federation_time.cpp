@@ -150,8 +150,9 @@ Outcome FederationExecution::Parts::Time::read_update(std::uint32_t slot, Reader
   });
   if (!is_read || records != 1) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({message.object});
-  if (object == no_object || parts_.objects_[object].object_class != header.object_class) return Violation::unknown_name;
-  if (!parts_.ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
+  const bool is_late = object == no_object && parts_.is_late({message.object});  // then nobody will be told
+  if (!is_late && (object == no_object || parts_.objects_[object].object_class != header.object_class)) return Violation::unknown_name;
+  if (!is_late && !parts_.ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   message.class_number = header.object_class;
   message.attributes = attributes;
   return std::nullopt;
@@ -172,7 +173,12 @@ Outcome FederationExecution::Parts::Time::read_deletion(std::uint32_t slot, Read
   DeleteObjectMessage wire;
   if (!exchange(content, wire)) return Violation::malformed;
   const ObjectSlot object = parts_.objects_.find({wire.object});
-  if (object == no_object || parts_.objects_[object].is_leaving) return Violation::unknown_name;
+  const bool is_late = object == no_object ? parts_.is_late({wire.object}) : parts_.objects_[object].is_leaving && parts_.is_late({wire.object});
+  if (is_late) {  // what the first deletion does, and its retraction undoes, the second has no part in
+    message.object = ObjectHandle::none;
+    return std::nullopt;
+  }
+  if (object == no_object) return Violation::unknown_name;
   if (!parts_.ownership_.owned_by(slot, object).contains(privilege_to_delete_object)) return Violation::not_owned;
   parts_.objects_[object].is_leaving = true;
   message.object = wire.object;

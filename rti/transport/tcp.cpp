@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t events_per_poll = 4096;   ///< connections opened, closed or read in one poll, more where many are accepted
 constexpr std::size_t accepted_per_event = 64;
+/// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows to megabytes for one who doesn't read, where nobody can put newer state in their place.
+constexpr int unsent_max = 256 * 1024;
 constexpr std::uint64_t listener_mark = 1ull << 32;  ///< numbers from here on are listening sockets, those below are connections
 constexpr std::uint64_t pause_mark = ~0ull;
 
@@ -142,6 +144,7 @@ void TcpTransport::Core::finish_connecting(Peer& peer) {
 void TcpTransport::Core::opened(Peer& peer) {
   const int yes = 1;
   ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_max, sizeof unsent_max);
   peer.is_open = true;
   const ConnectionId id = peer.id;
   if (!peer.queue.empty()) await_room(peer), drain(peer);  // sent before it was open
