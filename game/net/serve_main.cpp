@@ -93,6 +93,7 @@ class ServerProcess {
   static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
   static rti::FederationSettings federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
+  void wait(double seconds);
   void exchange_until(double until_s);
   void await_turns();
   void tick(std::uint64_t number);
@@ -132,22 +133,24 @@ void ServerProcess::await_turns() {
   }
 }
 
+/// The clock of the RTI goes on whatever the players do: frozen while they made their way to the barrier, it let the server's own federate hear nothing for so long that it
+/// took the RTI for dead, and its next update was refused with "join first". With datagrams, which nothing holds back, crowds took that long.
+void ServerProcess::wait(double seconds) {
+  game::TickCosts uncounted;
+  serving_.exchange(seconds);
+  if (server_.is_joined() && server_.trouble().empty()) serving_.send(0.0, not_started_s, uncounted);
+  serving_.host().advance_clock(now_s());
+}
+
 bool ServerProcess::start() {
   const double give_up_s = now_s() + options_.patience_s;
-  game::TickCosts uncounted;
-  while (!game::is_interrupted && (!server_.is_joined() || server_.player_count() < options_.clients)) {
-    if (now_s() > give_up_s) return false;
-    serving_.exchange(0.02);
-    if (server_.is_joined()) serving_.send(0.0, not_started_s, uncounted);
-    serving_.host().advance_clock(now_s());
-  }
+  const auto may_wait = [&] { return !game::is_interrupted && server_.trouble().empty() && now_s() <= give_up_s; };
+  const auto are_all_there = [&] { return server_.is_joined() && server_.player_count() >= options_.clients; };
+  while (!are_all_there() && may_wait()) wait(0.02);
+  if (!are_all_there()) return false;
   server_.call_to_start();
-  while (!game::is_interrupted && !server_.is_started()) {
-    if (now_s() > give_up_s) return false;
-    serving_.exchange(0.005);
-    serving_.send(0.0, not_started_s, uncounted);
-  }
-  return true;
+  while (!server_.is_started() && may_wait()) wait(0.005);
+  return server_.is_started();
 }
 
 void ServerProcess::tick(std::uint64_t number) {
@@ -291,12 +294,12 @@ game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene
 game::ExitStatus show_status(const game::ServeOptions& options) {
   const auto [address, port] = game::address_and_port("--status", options.status);
   do {
-    const auto reports = game::ask_status(address, port, now_s);
-    if (!reports) {
-      spdlog::error("--status: nothing that speaks this version of the protocol answers at {}", options.status);
+    const game::StatusAnswer answer = game::ask_status(address, port, now_s);
+    if (!answer.reports) {
+      spdlog::error("--status: {}: {}", options.status, answer.trouble);
       return game::ExitStatus::no_server;
     }
-    std::fputs(game::status_table(*reports).c_str(), stdout);
+    std::fputs(game::status_table(*answer.reports).c_str(), stdout);
     std::fflush(stdout);
     const double next_s = now_s() + options.every_s;
     while (options.every_s > 0.0 && !game::is_interrupted && now_s() < next_s) std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -346,8 +349,14 @@ game::ExitStatus serve(game::ServeOptions& options) {
   if (evidence) game::write_evidence(options.evidence, *evidence);
   if (!options.record.empty() && options.hosted.empty()) game::write_key_log(options.record, log);
   if (game::is_interrupted) return game::ExitStatus::interrupted;
+  if (!process.server().trouble().empty()) {
+    spdlog::error("the server's own federate left the federation: {}", process.server().trouble());
+    return game::ExitStatus::failed;
+  }
   if (!is_complete) {
-    spdlog::error("{} of {} players came within {} s", process.server().player_count(), options.clients, options.patience_s);
+    const std::uint32_t came = process.server().player_count();
+    if (came < options.clients) spdlog::error("{} of {} players came within {} s", came, options.clients, options.patience_s);
+    else spdlog::error("{} players came, but not all were ready to start within {} s", came, options.patience_s);
     return game::ExitStatus::nobody_came;
   }
   return game::ExitStatus::ok;

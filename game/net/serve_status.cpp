@@ -15,9 +15,9 @@ namespace {
 
 struct Asker : rti::FederateAmbassador {
   std::optional<std::vector<rti::FederationReport>> reports;
-  bool is_lost = false;
+  std::string loss;
   void report_management(const std::vector<rti::FederationReport>& all) override { reports = all; }
-  void connection_lost(std::string_view) override { is_lost = true; }
+  void connection_lost(std::string_view why) override { loss = why; }
 };
 
 template <class... Values>
@@ -51,7 +51,7 @@ std::string time_of(const rti::FederateCounts& counts) {
 
 }  // namespace
 
-std::optional<std::vector<rti::FederationReport>> ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s) {
+StatusAnswer ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s) {
   const rti::Fom no_model;
   Asker asker;
   rti::Ambassador ambassador(no_model, asker);
@@ -61,11 +61,15 @@ std::optional<std::vector<rti::FederationReport>> ask_status(const std::string& 
   links.add(link);
   ambassador.query_management();
   const double give_up_s = now_s() + patience_s;
-  while (!asker.reports && !asker.is_lost && !link.is_finished() && now_s() < give_up_s) {
+  while (!asker.reports && asker.loss.empty() && !link.is_finished() && now_s() < give_up_s) {
     links.flush(now_s());
     tcp.poll(std::chrono::milliseconds(20), links);
   }
-  return asker.reports;
+  if (asker.reports) return {std::move(asker.reports), ""};
+  if (link.is_finished() && link.close_reason() == rti::CloseReason::refused) return {{}, "nobody listens there: " + asker.loss};
+  const std::string other = "what listens there does not speak version " + std::to_string(rti::protocol_version) + " of the protocol, or asks for a key";
+  if (asker.loss.empty()) return {{}, "no answer within " + line("%g", patience_s) + " s: " + other};
+  return {{}, other + ": " + asker.loss};
 }
 
 std::string status_table(const std::vector<rti::FederationReport>& reports) {

@@ -11,8 +11,13 @@
 
 namespace rink::game {
 
-/// Asks by a connection of its own, without joining, so any object model will do. Nothing if there is no answer within `patience_s` [s] of `now_s`.
-std::optional<std::vector<rti::FederationReport>> ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s = 3.0);
+struct StatusAnswer {
+  std::optional<std::vector<rti::FederationReport>> reports;
+  std::string trouble;  ///< why there are none
+};
+
+/// Asks by a connection of its own, without joining, so any object model will do, and waits for `patience_s` [s] of `now_s`.
+StatusAnswer ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s = 3.0);
 
 /// A paragraph for each federation, a line for each of its federates.
 std::string status_table(const std::vector<rti::FederationReport>& reports);

@@ -6,10 +6,17 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "game/control/replay.h"
+#include "game/net/address.h"
+#include "game/net/fom_file.h"
+#include "game/replication/names.h"
+#include "game/replication/trajectory_codec.h"
 #include "loadgen/process.h"
+#include "rti/transport/federate_link.h"
+#include "rti/transport/tcp.h"
 #include "tests/places.h"
 
 namespace rink::game {
@@ -151,7 +158,58 @@ TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   server.stop(5s);
   const Ended nobody = run("rink-serve", {"--status", *place});
   EXPECT_EQ(nobody.status, 11);
-  EXPECT_THAT(nobody.words, HasSubstr("--status: nothing that speaks this version of the protocol answers at"));
+  EXPECT_THAT(nobody.words, testing::AllOf(HasSubstr("--status: " + *place + ": nobody listens there"), HasSubstr("refused")));
+}
+
+/// Somebody who listens and speaks something else, or nothing.
+struct Foreigner : rti::TransportListener {
+  rti::TcpTransport tcp;
+  std::uint16_t port = tcp.listen("127.0.0.1", 0);
+  bool hangs_up = false;
+  void on_open(rti::ConnectionId) override {}
+  void on_bytes(rti::ConnectionId connection, rti::Bytes) override {
+    if (hangs_up) tcp.close(connection);
+  }
+  void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override {}
+};
+
+TEST(ServeCommand, StatusTellsARefusalFromSomebodyWhoSpeaksAnotherProtocol) {
+  for (const bool hangs_up : {true, false}) {
+    Foreigner foreigner;
+    foreigner.hangs_up = hangs_up;
+    Process status(test::binary_folder() + "/bin/rink-serve", {"--status", "127.0.0.1:" + std::to_string(foreigner.port)}, {});
+    for (int i = 0; i < 1000 && !status.ending(); ++i) status.attend(5ms), foreigner.tcp.poll(5ms, foreigner);
+    ASSERT_TRUE(status.ending());
+    EXPECT_EQ(status.ending()->exit_status, 11);
+    EXPECT_THAT(status.last_words(), HasSubstr("does not speak version " + std::to_string(rti::protocol_version)));
+    EXPECT_THAT(status.last_words(), HasSubstr(hangs_up ? "closed by peer" : "no answer within 3 s"));
+  }
+}
+
+TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) {
+  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  ASSERT_TRUE(place) << server.last_words();
+  struct : rti::FederateAmbassador {
+  } deaf;  // joins and lives, but takes no seat and reaches no barrier
+  const rti::Fom fom = load_rink_fom(fom_file());
+  rti::Ambassador ambassador(fom, deaf);
+  rti::TcpTransport tcp;
+  const auto [address, port] = address_and_port("--connect", *place);
+  rti::FederateLink link(ambassador, tcp, tcp.connect(address, port));
+  rti::FederateLinks links;
+  links.add(link);
+  ambassador.join("rink", "bat-0", player_federate_type);
+  const auto start = std::chrono::steady_clock::now();
+  while (!server.ending() && std::chrono::steady_clock::now() - start < 12s) {
+    links.flush(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    tcp.poll(20ms, links);
+    server.attend(1ms);
+  }
+  ASSERT_TRUE(server.ending());
+  EXPECT_EQ(server.ending()->exit_status, 17) << "players did not come";
+  EXPECT_THAT(server.last_words(), HasSubstr("1 players came, but not all were ready to start within 7 s"));
 }
 
 TEST(ServeCommand, StatusAsksAgainWhenToldTo) {

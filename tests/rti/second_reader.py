@@ -30,17 +30,43 @@ class Model:
                 for declared in group:
                     self.types[declared.findtext("name")] = declared
         self.notes = {note.findtext("label"): note.findtext("semantics") for note in root.iter("note")}
+        self.dimensions = [(each.findtext("name"), int(each.findtext("upperBound") or 0)) for outer in root.iter("dimensions") for each in outer.findall("dimension") if len(each)]
         self.objects, self.interactions = [], []
+        self.object_lines, self.interaction_lines = [], []
         for outer in root.iter("objects"):
-            self.add(outer, "objectClass", "attribute", self.objects, [])
+            self.add(outer, "objectClass", "attribute", self.objects, [], self.object_lines, [], ALL_ONES)
         for outer in root.iter("interactions"):
-            self.add(outer, "interactionClass", "parameter", self.interactions, [])
+            self.add(outer, "interactionClass", "parameter", self.interactions, [], self.interaction_lines, [], ALL_ONES)
 
-    def add(self, outer, tag, member, into, inherited):
+    def add(self, outer, tag, member, into, inherited, lines, inherited_lines, parent):
         for element in outer.findall(tag):
             members = inherited + [(each.findtext("name"), each.findtext("dataType")) for each in element.findall(member)]
+            of_class = inherited_lines + [line for each in element.findall(member) for line in self.member_lines(each, member == "attribute")]
+            number = len(into)
             into.append((element.findtext("name"), members))
-            self.add(element, tag, member, into, members)
+            own = [] if member == "attribute" else self.travel_lines(element)
+            lines.append(["%s %s" % ("object" if member == "attribute" else "interaction", element.findtext("name")), str(parent)] + own + of_class)
+            self.add(element, tag, member, into, members, lines, of_class, number)
+
+    def travel_lines(self, element):
+        """Transportation, order and dimensions as numbers."""
+        bits = sum(1 << [name for name, _ in self.dimensions].index(each.text) for each in element.findall("dimensions/dimension"))
+        return [str(int(element.findtext("transportation") == "HLAbestEffort")), str(int(element.findtext("order") == "TimeStamp")), str(bits)]
+
+    def member_lines(self, element, is_attribute):
+        size = self.size(element.findtext("dataType"))
+        lines = [element.findtext("name"), element.findtext("dataType"), str(ALL_ONES if size is None else size)]
+        return lines + (self.travel_lines(element) if is_attribute else [])
+
+    def hash(self):
+        """Of a model without quantised types."""
+        lines = [line for each in self.object_lines + self.interaction_lines for line in each]
+        for name, upper in self.dimensions:
+            lines += ["dimension " + name, str(upper)]
+        value = 0xCBF29CE484222325
+        for byte in "".join(line + "\n" for line in lines).encode():
+            value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+        return value
 
     def size(self, name):
         """Bytes of a value; None if that varies."""
@@ -222,9 +248,54 @@ class Reader:
     def regions(self):
         return ["bounds %d %s %s %s %s" % (self.u32(), self.f64(), self.f64(), self.f64(), self.f64()) for _ in range(self.u16())]
 
+    def object_block(self, verb, words):
+        """A header that holds for each of the objects after it."""
+        handle, lines = 0, []
+        while True:
+            step = self.varint()
+            if step == 0:
+                return lines
+            step -= 1
+            handle += -(step + 1) // 2 if step & 1 else step // 2
+            lines.append("%s %d %s" % (verb, handle, words))
+
+    def ownership(self, names):
+        word, bits, tag = names[self.u8()], self.varint(), self.short_bytes()
+        return self.object_block(word, "%x %s" % (bits, tag))
+
+    def pairs(self):
+        return ",".join("%x:%d" % (self.u32(), self.u32()) for _ in range(self.u16())) or "-"
+
+    def ranges(self):
+        return ["ranges %d %s" % (self.u32(), " ".join("%s..%s" % (self.f64(), self.f64()) for _ in range(self.u8())))]
+
+    def timed(self, table, head):
+        """A whole message inside one in time-stamp order, whose stamp holds."""
+        stamp = self.read_stamp()
+        content = Reader(self.take(self.u16()), self.model)
+        content.stamp = stamp
+        kind = content.u8()
+        assert kind in (12, 13, 14, 71), "kind %d does not travel in time-stamp order" % kind
+        lines = table[kind](content)
+        assert content.is_at_end() and len(lines) == 1, "one message, and all of it"
+        return ["%s %s %s" % (head, stamp, lines[0])]
+
+    def report(self):
+        return ["report %s %s %s objects %d drops %s" % (self.text(), self.text(), self.text(), self.varint(), sum(self.varint() for _ in range(32)))]
+
+    def federate_report(self):
+        line = "federate %d %s %s" % (self.u32(), self.text(), self.text())
+        self.counts = [self.varint() for _ in range(10)]
+        line += " updates %d reflections %d sent %d received %d owned %d" % (tuple(self.counts[:4]) + (self.counts[7],))
+        regulating, constrained, time = self.u8(), self.u8(), self.f64()
+        self.take(16)  # the least stamp and the silence
+        return ["%s time %d %d %s" % (line, regulating, constrained, time)]
+
     def join(self):
         assert self.u32() == 0x4B4E4952
-        return ["join version %d model %016x %s %s %s" % (self.u16(), self.u64(), self.text(), self.text(), self.text())]
+        version, hash_of_model = self.u16(), self.u64()
+        assert hash_of_model == self.model.hash(), "the page's hash of this model is %016x, not %016x" % (self.model.hash(), hash_of_model)
+        return ["join version %d model %016x %s %s %s" % (version, hash_of_model, self.text(), self.text(), self.text())]
 
     def passive(self):
         return ("active", "passive")[self.u8()]
@@ -269,7 +340,29 @@ UP = {
     22: lambda r: ["list_executions"],
     47: lambda r: r.object_attributes("spare"),
     49: lambda r: ["attribute_relevance_advisory %d" % r.u8()],
+    23: lambda r: ["query_management"],
+    28: lambda r: ["enable_time_regulation " + r.f64()],
+    29: lambda r: [("enable_time_constrained", "disable_time_constrained", "disable_time_regulation")[r.u8()]],
+    30: lambda r: ["modify_lookahead " + r.f64()],
+    31: lambda r: ["%s %s" % (ADVANCES[r.u8()], r.f64())],
+    32: lambda r: r.timed(UP, "timed %d" % r.varint()),
+    33: lambda r: ["retract %d" % r.varint()],
+    34: lambda r: ["query_time_bounds"],
+    36: lambda r: r.ownership(OWNERSHIP_REQUESTS),
+    37: lambda r: ["query_ownership %d %d" % (r.varint(), r.u8())],
+    38: lambda r: ["resign_action %d" % r.u8()],
+    50: lambda r: ["acknowledge_keyframe %d" % r.u16()],
+    51: lambda r: ["refuse_keyframe %d" % r.u16()],
+    52: lambda r: ["create_region_over %d %x" % (r.u32(), r.u64())],
+    53: Reader.ranges,
+    54: lambda r: ["%s %s %s" % (r.object_class(r.u16()), ("unsubscribe", "subscribe", "request")[r.u8()], r.pairs())],
+    55: lambda r: ["subscribe_interaction_within %s %d %s" % (r.interaction_class(), r.u8(), r.handles())],
+    56: lambda r: ["associate_regions %d %d %s" % (r.u32(), r.u8(), r.pairs())],
+    57: lambda r: ["send_within %s %s %s %s" % (r.interaction_class(), r.read_stamp(), r.handles(), r.short_bytes())],
 }
+ADVANCES = ("time_advance_request", "time_advance_request_available", "next_message_request", "next_message_request_available", "flush_queue_request")
+OWNERSHIP_REQUESTS = ("divest", "offer", "confirm", "deny_release", "give_if_wanted", "withdraw_offer", "acquire", "acquire_if_available", "cancel_acquisition")
+OWNERSHIP_NOTICES = ("assumption_requested", "confirmation_requested", "acquired", "unavailable", "release_requested", "acquisition_cancelled", "divested", "kept", "kept_offered")
 DOWN = {
     3: lambda r: [],
     13: lambda r: r.updates("reflect"),
@@ -291,6 +384,19 @@ DOWN = {
     77: Reader.execution,
     105: Reader.class_relevance,
     106: lambda r: r.object_attributes("object_relevance"),
+    78: Reader.report,
+    79: Reader.federate_report,
+    80: lambda r: ["report ends"],
+    82: lambda r: ["time_regulation_enabled %s %s" % (r.f64(), r.f64())],
+    83: lambda r: ["time_constrained_enabled " + r.f64()],
+    84: lambda r: ["time_advance_grant " + r.f64()],
+    85: lambda r: r.timed(DOWN, "timed %d %d %d" % (r.varint(), r.u8(), r.varint())),
+    86: lambda r: ["request_retraction %d %d %s" % (r.varint(), r.varint(), r.f64())],
+    87: lambda r: ["time_bounds %s %s" % (r.f64(), r.f64())],
+    92: lambda r: r.ownership(OWNERSHIP_NOTICES),
+    93: lambda r: ["owner %d %d %s" % (r.varint(), r.u8(), r.one_or_none())],
+    112: lambda r: ["digest " + " ".join("%08x:%08x" % (r.u32(), r.u32()) for _ in range(r.u16()))],
+    113: lambda r: ["provide %d %x" % (r.varint(), r.varint())],
 }
 
 
