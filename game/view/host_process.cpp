@@ -14,9 +14,10 @@
 
 namespace rink::view {
 
-HostProcess::HostProcess(const std::string& port, const std::string& records) {
+HostProcess::HostProcess(const std::string& port, const std::string& records, const std::string& key_file) {
   const std::string server = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rink-serve").string();
-  std::array<std::string, 8> words{server, "match", "--address", "0.0.0.0", "--port", port, "--record", records};
+  std::vector<std::string> words{server, "match", "--address", "0.0.0.0", "--port", port, "--record", records};
+  if (!key_file.empty()) words.insert(words.end(), {"--key-file", key_file});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

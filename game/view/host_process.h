@@ -9,9 +9,9 @@ namespace rink::view {
 
 class HostProcess {
  public:
-  /// Hosts matches of the scene "match" for everybody on `port`, with records in the folder `records`. Waits until it listens; throws std::runtime_error with its own words if it
-  /// does not, for instance because the port is in use.
-  HostProcess(const std::string& port, const std::string& records);
+  /// Hosts matches of the scene "match" for everybody on `port`, with records in the folder `records`; only for who has the same key if there is a `key_file`. Waits until it
+  /// listens; throws std::runtime_error with its own words if it does not, for instance because the port is in use.
+  HostProcess(const std::string& port, const std::string& records, const std::string& key_file = "");
   ~HostProcess();
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;

@@ -88,7 +88,8 @@ class RecordedMatch final : public game::MatchSource {
 /// A match that is hosted here and played here: the server is there before the connection to it, and ends after it.
 class HostedMatch final : public game::MatchSource {
  public:
-  HostedMatch(const std::string& port, const std::string& records) : host_(port, records), match_("127.0.0.1:" + port, {.name = "host"}) {}
+  HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
+      : host_(port, records, key_file), match_("127.0.0.1:" + port, {.name = "host"}, key_file) {}
   void advance(double now_s) override {
     match_.advance(now_s);
     std::cerr << host_.take_words();
@@ -107,7 +108,7 @@ class HostedMatch final : public game::MatchSource {
 std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
-  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, host_records(records));
+  if (wish.kind == Kind::host) return std::make_unique<HostedMatch>(wish.address, host_records(records), options.key_file);
   if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())}, options.key_file);
   if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true}, options.key_file);
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);

@@ -35,7 +35,7 @@ inline void add_options(CLI::App& app, PlayOptions& options) {
   for (CLI::Option* one : {two, bot, host, join, watch, replay})
     for (CLI::Option* other : {two, bot, host, join, watch, replay})
       if (one != other) one->excludes(other);
-  app.add_option("--key-file", options.key_file, "to join or watch a host that asks for a shared key: the same file as there")->type_name("FILE")->check(CLI::ExistingFile);
+  app.add_option("--key-file", options.key_file, "a shared key: to host for those only who have the same file, and to join or watch such a host")->type_name("FILE")->check(CLI::ExistingFile);
   app.add_option("--records", options.records, "folder for the records of matches (default: rink/matches in $XDG_DATA_HOME or ~/.local/share)")->type_name("FOLDER");
   app.add_option("--camera", options.camera, "where to see it from; C changes it, V gives each of two players their own again")->check(CLI::IsMember({"left", "right", "side", "above"}));
   app.add_option("--size", options.size, "of the window")->type_name("WIDTHxHEIGHT")->capture_default_str();

@@ -13,4 +13,8 @@ void drive_federation(rti::Bytes input);
 /// federate of what cannot be: an update of an object that is not known, a discovery of one that is.
 void drive_federate(rti::Bytes input);
 
+/// Bytes are what happens to datagrams of best-effort updates and their acknowledgements: lost, doubled, late, changed, made up. Nobody loses a connection by them, and a
+/// federate is told of nothing that cannot be.
+void drive_datagrams(rti::Bytes input);
+
 }  // namespace rink::fuzz

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 
+#include "rti/admission/handshake.h"
 #include "rti/federation_directory.h"
 #include "rti/federation_file.h"
 #include "rti/wire/bit_stream.h"
@@ -130,11 +131,34 @@ void directories(Bytes bytes) {
   require(directory.find("rink") != nullptr || directory.list().size() <= 1024, "no more executions than allowed");
 }
 
+/// Either end of a handshake with somebody who has not the key.
+void handshakes(Bytes bytes) {
+  static const SharedKey key(std::as_bytes(std::span("a key that is long enough")));
+  Input input(bytes);
+  const Role role = input.byte() % 2 == 0 ? Role::rti : Role::federate;
+  Handshake handshake(key, role, "rink", Nonce{});
+  std::size_t heard = 0, said = 0;
+  while (!input.is_empty()) {
+    const Bytes part = input.part(1 + input.byte() % 64);
+    Bytes left = part;
+    heard += part.size();
+    const bool had_failed = handshake.state() == Handshake::State::failed;
+    handshake.receive(left);
+    require(handshake.state() != Handshake::State::proven, "nobody proves a key that he has not");
+    require(!had_failed || handshake.state() == Handshake::State::failed, "a failure is final");
+    said += handshake.outgoing().size();
+    handshake.clear_outgoing();
+    require(role == Role::federate || said <= heard, "a stranger is told no more than he said");
+  }
+}
+
 }  // namespace
 
 std::span<const Harness> rti_harnesses() {
-  static constexpr std::array<Harness, 7> list{{{"federation", drive_federation},
+  static constexpr std::array<Harness, 9> list{{{"federation", drive_federation},
                                                 {"federate", drive_federate},
+                                                {"datagrams", drive_datagrams},
+                                                {"handshake", handshakes},
                                                 {"directory", directories},
                                                 {"frames", frames},
                                                 {"update_block", update_blocks},
