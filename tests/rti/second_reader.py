@@ -221,15 +221,22 @@ class Reader:
         assert self.stamp is not None, "a block of updates before the first stamp of its frame"
         number, bits = self.varint(), self.varint()
         types = [data_type for k, (_, data_type) in enumerate(self.model.objects[number][1]) if bits >> k & 1]
-        lines, handle = [], 0
+        lines = []
+        for handle in self.block():
+            values = b"".join(self.value(each) for each in types)
+            lines.append("%s %d %s %s %s %s" % (verb, handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
+        return lines
+
+    def block(self):
+        """The handles of a block's objects, as the steps between them lead."""
+        handle = 0
         while True:
             step = self.varint()
             if step == 0:
-                return lines
+                return
             step -= 1
             handle += -(step + 1) // 2 if step & 1 else step // 2
-            values = b"".join(self.value(each) for each in types)
-            lines.append("%s %d %s %s %s %s" % (verb, handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
+            yield handle
 
     def class_and_attributes(self):
         number, bits = self.u16(), self.u32()
@@ -250,14 +257,7 @@ class Reader:
 
     def object_block(self, verb, words):
         """A header that holds for each of the objects after it."""
-        handle, lines = 0, []
-        while True:
-            step = self.varint()
-            if step == 0:
-                return lines
-            step -= 1
-            handle += -(step + 1) // 2 if step & 1 else step // 2
-            lines.append("%s %d %s" % (verb, handle, words))
+        return ["%s %d %s" % (verb, handle, words) for handle in self.block()]
 
     def ownership(self, names):
         word, bits, tag = names[self.u8()], self.varint(), self.short_bytes()
