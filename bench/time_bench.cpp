@@ -1,18 +1,22 @@
 // A whole federation advancing in lockstep: steps per second over TCP and in process; every figure counts grants that arrived.
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
+#include "rti/transport/bundle.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
+#include "rti/transport/shared_memory.h"
 #include "rti/transport/tcp.h"
 
 namespace {
@@ -102,35 +106,78 @@ void measure_steps(benchmark::State& state, Crowd& crowd, Turn turn) {
   state.counters["grants_arrived"] = static_cast<double>(crowd.grants());
 }
 
-/// The RTI in one thread, all federates in another, a TCP connection for each. `longest_wait` of zero: both spin.
-void time_advance(benchmark::State& state, std::chrono::nanoseconds longest_wait) {
+/// The RTI in one thread and all federates in another, over the two ends of `Carriers`, whose polls wait for at most `longest_wait`; with zero, both spin.
+template <class Carriers>
+void time_advance_over(benchmark::State& state, Carriers& carriers, std::chrono::nanoseconds longest_wait) {
   const int count = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * count) + 64);
-  std::atomic<bool> is_over{false};
-  std::atomic<std::uint16_t> port{0};
+  std::atomic<bool> is_over{false}, is_listening{false};
   std::thread rti([&] {
     FederationExecution execution(empty_model(), {});
     FederationHost host(execution);
-    TcpTransport tcp;
-    port = tcp.listen("127.0.0.1", 0);
-    host.add(tcp);
+    carriers.listen();
+    host.add(carriers.server_end());
+    is_listening = true;
     while (!is_over) {
       host.poll(longest_wait);
       host.flush();
     }
   });
-  while (port == 0) std::this_thread::yield();
+  while (!is_listening) std::this_thread::yield();
   {
-    TcpTransport tcp;
-    Crowd crowd(tcp, count, [&] { return tcp.connect("127.0.0.1", port); });
-    measure_steps(state, crowd, [&] { tcp.poll(longest_wait, crowd.links); });
+    Transport& transport = carriers.federates_end();
+    Crowd crowd(transport, count, [&] { return carriers.connect(); });
+    measure_steps(state, crowd, [&] { transport.poll(longest_wait, crowd.links); });
   }
   is_over = true;
   rti.join();
 }
 
-void time_advance_blocking(benchmark::State& state) { time_advance(state, 10ms); }
-void time_advance_spinning(benchmark::State& state) { time_advance(state, 0ms); }
+/// A TCP connection for each federate.
+struct Sockets {
+  explicit Sockets(std::chrono::nanoseconds spin = {}) : server(TcpSettings{.spin = spin}), federates(TcpSettings{.spin = spin}) {}
+  void listen() { port = server.listen("127.0.0.1", 0); }
+  Transport& server_end() { return server; }
+  Transport& federates_end() { return federates; }
+  ConnectionId connect() { return federates.connect("127.0.0.1", port); }
+  TcpTransport server, federates;
+  std::uint16_t port = 0;
+};
+
+/// One TCP connection for all of them.
+struct Bundled {
+  explicit Bundled(std::chrono::nanoseconds spin = {}) : sockets(spin) {}
+  void listen() { sockets.listen(); }
+  Transport& server_end() { return server; }
+  Transport& federates_end() { return federates; }
+  ConnectionId connect() {
+    if (!trunk) trunk = sockets.connect();
+    return federates.connect(*trunk);
+  }
+  Sockets sockets;
+  BundledTransport server{sockets.server}, federates{sockets.federates};
+  std::optional<ConnectionId> trunk;
+};
+
+/// Rings in shared memory, a pair for each federate.
+struct Rings {
+  explicit Rings(std::chrono::nanoseconds spin) : server(SharedMemorySettings{.spin = spin}), federates(SharedMemorySettings{.spin = spin}) {}
+  void listen() { server.listen(name); }
+  Transport& server_end() { return server; }
+  Transport& federates_end() { return federates; }
+  ConnectionId connect() { return federates.connect(name); }
+  std::string name = "rink-bench-" + std::to_string(getpid());
+  SharedMemoryTransport server, federates;
+};
+
+constexpr std::chrono::nanoseconds blocking = 10ms, spinning = 0ms;
+constexpr std::chrono::nanoseconds spin_first = 50us;  ///< and then block
+
+template <class Carriers>
+void advance(benchmark::State& state, std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
+  Carriers carriers{spin};
+  time_advance_over(state, carriers, longest_wait);
+}
 
 /// The same without sockets: one thread, bytes handed over in memory.
 void time_advance_in_process(benchmark::State& state) {
@@ -150,8 +197,21 @@ void time_advance_in_process(benchmark::State& state) {
   });
 }
 
-BENCHMARK(time_advance_blocking)->Name("rti/time_advance")->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->UseRealTime()->MinTime(0.5);
-BENCHMARK(time_advance_spinning)->Name("rti/time_advance_spinning")->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->UseRealTime()->MinTime(0.5);
+void register_rows(const char* name, void (*run)(benchmark::State&, std::chrono::nanoseconds, std::chrono::nanoseconds), std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin) {
+  benchmark::RegisterBenchmark(name, run, longest_wait, spin)->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->UseRealTime()->MinTime(0.5);
+}
+
+const bool are_registered = [] {
+  register_rows("rti/time_advance", advance<Sockets>, blocking, {});
+  register_rows("rti/time_advance_spinning", advance<Sockets>, spinning, {});
+  register_rows("rti/time_advance_spin_first", advance<Sockets>, blocking, spin_first);
+  register_rows("rti/time_advance_bundled", advance<Bundled>, blocking, {});
+  register_rows("rti/time_advance_bundled_spinning", advance<Bundled>, spinning, {});
+  register_rows("rti/time_advance_bundled_spin_first", advance<Bundled>, blocking, spin_first);
+  register_rows("rti/time_advance_shared_memory", advance<Rings>, blocking, spin_first);
+  return true;
+}();
+
 BENCHMARK(time_advance_in_process)->Name("rti/time_advance_in_process")->ArgName("federates")->Arg(2)->Arg(8)->Arg(64)->Arg(1000)->UseRealTime()->MinTime(0.5);
 
 }  // namespace

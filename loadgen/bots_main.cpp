@@ -22,6 +22,7 @@
 #include "loadgen/process.h"
 #include "game/net/gate.h"
 #include "game/players/random_plan.h"
+#include "rti/federation_file.h"
 #include "rti/transport/socket_transport.h"
 
 namespace {
@@ -31,7 +32,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd", transport = "tcp";
-  std::string key_file;
+  std::string key_file, federation_file;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
@@ -88,6 +89,7 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--key-file", options.key_file, "the server's key file, if it asks for one")->check(CLI::ExistingFile);
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
+  app.add_option("--federation-file", options.federation_file, "the server's federation file instead of --connect and --federation; if it lists nodes, bots bear their names from the --first on");
   app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
   app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
   app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
@@ -140,23 +142,38 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   return game::ExitStatus::ok;
 }
 
+/// What the flags or the file say of where to join what.
+rti::FederationFile federation_of(const Options& options) {
+  if (options.federation_file.empty()) {
+    const auto [address, port] = game::address_and_port("--connect", options.connect);
+    return {.federation = options.federation, .fom = {game::fom_file()}, .nodes = {{.name = "rti", .address = address, .port = port}}};
+  }
+  rti::FederationFile file = rti::load_federation_file(options.federation_file);
+  if (file.is_listed && options.first + options.count > file.members().size())
+    throw std::runtime_error("--count: " + std::to_string(options.count) + " bots from the " + std::to_string(options.first) + "th node on, but '" + options.federation_file + "' lists " +
+                             std::to_string(file.members().size()));
+  return file;
+}
+
 game::ExitStatus play(const Options& options) {
-  const auto [address, port] = game::address_and_port("--connect", options.connect);
+  const rti::FederationFile file = federation_of(options);
+  const auto [address, port] = std::pair(file.nodes.front().address, file.nodes.front().port);
   game::require_writable("--report", options.report);
   game::require_writable("--evidence", options.evidence);
-  const rti::Fom fom = game::load_rink_fom(game::fom_file());
+  const rti::Fom fom = game::load_rink_fom(file.fom);
   const std::vector<game::InputEvent> plan = plan_of(options);
   rti::ensure_file_limit((options.transport == "udp" ? 2u : 1u) * options.count + 64u);
   rti::SocketTransport transport(options.transport);
-  const loadgen::BotCrowdSettings settings{.federation = options.federation,
+  const loadgen::BotCrowdSettings settings{.federation = file.federation,
                                            .first = options.first,
+                                           .names = file.members(),
                                            .view_fraction = options.view_fraction,
                                            .view_area = options.view_area,
                                            .view_margin = options.view_margin,
                                            .warm_up_s = options.warm_up_s,
                                            .duration_s = options.duration_s,
                                            .players = players_of(options)};
-  game::Gate gate(transport.get(), {.key_file = options.key_file, .role = rti::Role::federate, .federation = options.federation}, now_s);
+  game::Gate gate(transport.get(), {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation}, now_s);
   loadgen::BotCrowd crowd(fom, gate.transport(), settings, options.count, plan, now_s);
   if (!options.evidence.empty()) crowd.collect_evidence(options.seed);
   const double histogram_ns = histogram_ns_per_record();

@@ -51,16 +51,15 @@ Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, Mess
     return std::nullopt;
   }
   federates_[slot].subscribed_interactions[message.interaction_class] = static_cast<Listening>(message.is_declared);
-  list_interaction_subscriber(slot);
+  join_groups(slot);
   return std::nullopt;
 }
 
-/// Those who subscribe to a class or a superclass, in whatever region.
-void FederationExecution::Parts::list_interaction_subscriber(std::uint32_t slot) {
-  for (std::uint32_t i = 0; i < interaction_subscribers_.size(); ++i) {
-    auto& subscribers = interaction_subscribers_[i];
-    std::erase(subscribers, slot);
-    if (listening(slot, static_cast<std::uint16_t>(i)) != Listening::none) subscribers.push_back(slot);
+/// Those who subscribe to a class or a superclass, in whatever region, belong to its group.
+void FederationExecution::Parts::join_groups(std::uint32_t slot) {
+  for (std::uint32_t i = 0; i < fom_.interaction_classes().size(); ++i) {
+    if (listening(slot, static_cast<std::uint16_t>(i)) != Listening::none) groups_->join(i, slot);
+    else groups_->leave(i, slot);
   }
   subscribed(slot);
 }

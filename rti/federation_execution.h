@@ -40,6 +40,7 @@ struct FederationSettings {
   std::string federation = "rink";
   std::string filter = "none";              ///< a name that `im::make_filter` knows
   im::FilterSettings filter_settings;
+  std::vector<std::string> members{};       ///< names of the federates that may join; none: anybody
   std::uint32_t federate_max = 16'000;      ///< joined at once; below `object_block_max`
   std::uint32_t object_max = 1u << 20;      ///< registered at once
   std::uint32_t objects_per_federate_max = object_block;

@@ -38,7 +38,9 @@ class FederationReader {
     return *value;
   }
 
-  Node node(const toml::table& table, const std::string& name) const {
+  /// Whoever is to be asked needs an address; a node that asks may have one.
+  Node node(const toml::table& table, const std::string& name, bool is_asked) const {
+    if (!is_asked && !table.contains("address") && !table.contains("port")) return {name};
     const toml::node* port = table.get("port");
     if (port == nullptr) fail(table.source(), "key 'port' is missing");
     const auto value = port->value_exact<std::int64_t>();
@@ -54,10 +56,12 @@ class FederationReader {
       const toml::table* table = each.as_table();
       if (table == nullptr) fail(each.source(), "key 'node' must be a list of tables: [[node]]");
       allow(*table, {"name", "address", "port"});
-      nodes.push_back(node(*table, word(*table, "name")));
+      nodes.push_back(node(*table, word(*table, "name"), nodes.empty()));
+      if (nodes.back().name.size() > 255) fail(table->get("name")->source(), "key 'name' must be at most 255 bytes long");
       for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
         if (nodes[i].name == nodes.back().name) fail(table->source(), "key 'name': two nodes are called '" + nodes[i].name + "'");
     }
+    if (nodes.size() == 1) fail(list.source(), "key 'node' lists the RTI's node alone; list those that join it, too, or give 'address' and 'port' instead and let anybody join");
     return nodes;
   }
 
@@ -88,7 +92,8 @@ class FederationReader {
     const toml::node* list = table.get("node");
     if (list != nullptr && table.contains("address")) fail(table.get("address")->source(), "key 'address' and a list of [[node]] exclude each other");
     if (list != nullptr && table.contains("port")) fail(table.get("port")->source(), "key 'port' and a list of [[node]] exclude each other");
-    file.nodes = list != nullptr ? nodes(*list) : std::vector{node(table, "rti")};
+    file.nodes = list != nullptr ? nodes(*list) : std::vector{node(table, "rti", true)};
+    file.is_listed = list != nullptr;
     return file;
   }
 
@@ -97,6 +102,14 @@ class FederationReader {
 };
 
 }  // namespace
+
+std::vector<std::string> FederationFile::members() const {
+  std::vector<std::string> names;
+  if (is_listed)
+    for (const Node& each : nodes) names.push_back(each.name);
+  if (!names.empty()) names.erase(names.begin());
+  return names;
+}
 
 FederationFile parse_federation_file(std::string_view toml, const std::string& source) {
   const FederationReader reader(source);

@@ -6,6 +6,7 @@
 #include "rti/federation_parts.h"
 #include "rti/federation_time.h"
 #include "rti/fom/fom_digest.h"
+#include "rti/groups/member_lists.h"
 #include "rti/wire/fom_messages.h"
 
 namespace rink::rti {
@@ -16,6 +17,11 @@ std::unique_ptr<DataDistribution> distribution_of(const FederationServices& serv
                                                   std::unique_ptr<im::Filter> filter) {
   if (services.data_distribution) return services.data_distribution(fom, objects, ownership, std::move(filter));
   return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
+}
+
+std::unique_ptr<GroupCommunication> groups_of(const FederationServices& services) {
+  if (services.group_communication) return services.group_communication();
+  return std::make_unique<MemberLists>();
 }
 
 std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
@@ -35,8 +41,8 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       interest_(*distribution_),
       buffering_(buffering_of(services)),
       baselines_(fom, settings.keyframe_period),
-      interaction_subscribers_(fom.interaction_classes().size()),
-      relevance_(fom.object_classes().size() + fom.interaction_classes().size()) {
+      relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
+      groups_(groups_of(services)) {
   list_best_effort();
 }
 
@@ -79,6 +85,7 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
   if (message.fom_hash != fom_.hash()) return refuse(connection, Refusal::wrong_fom), std::nullopt;
   if (message.federation != settings_.federation) return refuse(connection, Refusal::wrong_federation), std::nullopt;
   if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
+  if (!settings_.members.empty() && std::ranges::find(settings_.members, message.name) == settings_.members.end()) return refuse(connection, Refusal::not_listed), std::nullopt;
   if (names_.contains(std::string(message.name))) return refuse(connection, Refusal::name_taken), std::nullopt;
   const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ == object_block_max);
   if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
@@ -154,8 +161,8 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);  // else its handles have been seen
   names_.erase(federate.name);
   federate.is_joined = federate.is_watching = false;
-  for (std::size_t i = 0; i < interaction_subscribers_.size(); ++i) std::erase(interaction_subscribers_[i], slot);
   subscribed(slot);
+  groups_->remove_federate(slot);
   leave_points(slot);
   for (Federate& other : federates_)
     if (other.is_watching)

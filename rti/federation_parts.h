@@ -131,7 +131,7 @@ class FederationExecution::Parts {
   Outcome publish_object_class(std::uint32_t slot, Reader& reader);
   Outcome subscribe_object_class(std::uint32_t slot, Reader& reader);
   Outcome declare_interaction(std::uint32_t slot, MessageKind kind, Reader& reader);
-  void list_interaction_subscriber(std::uint32_t slot);
+  void join_groups(std::uint32_t slot);
   Listening listening(std::uint32_t slot, std::uint16_t interaction_class) const;
   /// True if it subscribes to the class or a superclass without a region.
   bool hears_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
@@ -249,8 +249,8 @@ class FederationExecution::Parts {
   std::vector<std::uint32_t> slot_of_handle_;  ///< by federate handle; stale once it left, so compare
   std::unordered_map<std::string, std::uint32_t> names_;
   std::vector<SynchronizationPoint> points_;
-  std::vector<std::vector<std::uint32_t>> interaction_subscribers_;  ///< federate slots, by interaction class
   Relevance relevance_;
+  std::unique_ptr<GroupCommunication> groups_;  ///< of federate slots: a group for each interaction class
   std::vector<ConnectionId> management_queries_;  ///< that wait for the next flush
   std::vector<Farewell> farewells_, answers_;  ///< answers go to those who have not joined, and don't end their connection
   std::vector<Range> ranges_;  ///< of the region at hand

@@ -202,8 +202,8 @@ Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, Inte
   ++federates_[slot].counts.interactions_sent;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;
-  for (const std::uint32_t receiver : interaction_subscribers_[message.interaction_class]) {
-    if (receiver == slot || (only != FederateHandle::none && federates_[receiver].handle.value != only)) continue;
+  for (const std::uint32_t receiver : groups_->receivers(message.interaction_class, slot)) {
+    if (only != FederateHandle::none && federates_[receiver].handle.value != only) continue;
     if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) && !interest_.hears(receiver, message.interaction_class, slot, regions)) continue;
     say(federates_[receiver].tail, message);
     counters_.interaction_bytes_sent += measure(message);

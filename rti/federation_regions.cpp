@@ -53,7 +53,7 @@ Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, 
   if (!interest_.has_region(slot, region)) return Violation::unknown_name;
   interest_.delete_region(slot, region);
   --federates_[slot].counts.regions;
-  list_interaction_subscriber(slot);
+  join_groups(slot);
   return std::nullopt;
 }
 
@@ -169,7 +169,7 @@ Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot
   if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
   for (const RegionHandle region : regions_of(message.regions))
     if (!interest_.subscribe_interaction(slot, message.interaction_class, region, static_cast<Listening>(message.is_subscribed))) return Violation::unknown_name;
-  list_interaction_subscriber(slot);
+  join_groups(slot);
   return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "im/filter.h"
 #include "rti/buffering/buffering.h"
 #include "rti/distribution/data_distribution.h"
+#include "rti/groups/group_communication.h"
 #include "rti/ownership/ownership.h"
 #include "rti/time/time_management.h"
 
@@ -16,6 +17,9 @@ namespace rink::rti {
 struct FederationServices {
   /// Who hears of what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)> data_distribution;
+
+  /// Whom an interaction reaches of those who subscribe to its class (rti/groups/member_lists.h).
+  std::function<std::unique_ptr<GroupCommunication>()> group_communication;
 
   /// How updates are collected, and who is told the newest state instead (rti/buffering/newest_state.h).
   std::function<std::unique_ptr<Buffering>()> buffering;

@@ -24,7 +24,8 @@ void FederationExecution::Parts::Time::find_receivers(Message& message) {
     if (parts_.federates_[slot].handle != message.sender) message.receivers.push_back({parts_.federates_[slot].handle, told});
   };
   if (message.kind == MessageKind::interaction) {
-    for (const std::uint32_t slot : parts_.interaction_subscribers_[message.class_number])
+    // The sender may be gone: its handle then names nobody's slot, and the check in `add` is all there is.
+    for (const std::uint32_t slot : parts_.groups_->receivers(message.class_number, is_here(message.sender) ? parts_.slot_of_handle_[message.sender.value] : no_federate))
       if (!message.only || parts_.federates_[slot].handle == message.only) add(slot, {});
     return;
   }

@@ -12,6 +12,7 @@ const char* to_string(Refusal refusal) {
     case Refusal::federation_full: return "the federation execution has its greatest number of federates";
     case Refusal::bad_name: return "a federate needs a name";
     case Refusal::not_admitted: return "a shared key is asked for: give both ends the same key file";
+    case Refusal::not_listed: return "the federation's members are listed by name in its federation file, and this federate is none of them";
   }
   return "unknown refusal";
 }

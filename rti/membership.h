@@ -14,6 +14,7 @@ enum class Refusal : std::uint8_t {
   federation_full,     ///< the federation execution has its greatest number of federates
   bad_name,            ///< the federate's name is empty
   not_admitted,        ///< the RTI asks for a shared key, and got no proof of it
+  not_listed,          ///< the federation's members are listed, and the federate is none of them
 };
 /// A sentence that tells a user what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);

@@ -24,6 +24,7 @@
 #include "game/net/scene_choice.h"
 #include "game/net/serve_options.h"
 #include "game/net/serve_report.h"
+#include "game/net/serve_requirements.h"
 #include "game/net/serve_status.h"
 #include "game/net/serving.h"
 #include "game/replication/trajectory_codec.h"
@@ -32,6 +33,7 @@
 #include "rti/wire/message.h"
 #include "game/net/gate.h"
 #include "rti/transport/socket_transport.h"
+#include "rti/transport/staggered_transport.h"
 
 namespace {
 
@@ -41,16 +43,13 @@ using Json = nlohmann::ordered_json;
 /// The due instant in stamps from before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
 
-/// A federate registers at most `object_block` objects; the rest is for bats that come back.
-constexpr std::size_t body_max = rti::object_block / 2;
-
 /// The clock of every process of this machine that the stamps refer to [s].
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
 
 /// What the run cost, summed over the measured ticks.
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
-  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, span_s = 0.0;
+  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0, span_s = 0.0;
   game::ServingCounts begin, end;
 };
 
@@ -64,7 +63,8 @@ class ServerProcess {
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
                   .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options)},
                  federation_of(options, scene, federation), now_s, [this] { return simulated_now(); }),
-        gate_(sockets_.get(), {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
+        staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
+        gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
         server_(serving_.server()),
         records_(options.record) {
     serving_.host().add(gate_.transport());
@@ -83,6 +83,8 @@ class ServerProcess {
   void end();
 
   const game::Server& server() const { return server_; }
+  /// Whom the federation file lists and who has not come, as a clause of a complaint; empty if none.
+  std::string missing() const;
   Json report() const;
   /// What the run was and what its filter decided, if `--evidence` asked for it.
   std::optional<game::ServerEvidence> evidence(const game::SceneChoice& choice) const;
@@ -102,6 +104,7 @@ class ServerProcess {
   game::ServeOptions options_;
   rti::SocketTransport sockets_;
   game::Serving serving_;
+  rti::StaggeredTransport staggered_;
   game::Gate gate_;
   game::Server& server_;
   game::MatchRecords records_;
@@ -117,6 +120,8 @@ std::optional<game::Hosting> ServerProcess::hosting_of(const game::ServeOptions&
 rti::FederationSettings ServerProcess::federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation) {
   rti::FederationSettings settings = game::federation_settings(scene, options.scheme, options.cell_size);
   settings.federation = federation;
+  settings.members = options.members;
+  if (!settings.members.empty()) settings.members.push_back("server");  // our own federate
   return settings;
 }
 
@@ -163,6 +168,7 @@ void ServerProcess::tick(std::uint64_t number) {
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
   costs_.send_s += tick.send_s;
+  costs_.send_max_s = std::max(costs_.send_max_s, tick.send_s);
   ++costs_.ticks;
   if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
 }
@@ -183,12 +189,21 @@ void ServerProcess::run() {
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       measured_from_s = now_s();
+      staggered_.forget_bursts();
       costs_.begin = counts_of(serving_, sockets_.totals());
     }
     tick(number);
   }
   costs_.span_s = is_measuring ? now_s() - measured_from_s : 0.0;
   costs_.end = counts_of(serving_, sockets_.totals());
+}
+
+std::string ServerProcess::missing() const {
+  std::vector<std::string> absent = options_.members;
+  for (const rti::FederateReport& each : serving_.execution().report().federates) std::erase(absent, each.name);
+  std::string names;
+  for (const std::string& each : absent) names += (names.empty() ? "; missing: " : ", ") + each;
+  return names;
 }
 
 void ServerProcess::end() {
@@ -239,6 +254,9 @@ Json ServerProcess::report() const {
               {"physics_us_per_tick", 1e6 * costs_.physics_s / ticks},
               {"filter_us_per_tick", 1e6 * costs_.filter_s / ticks},
               {"send_us_per_tick", 1e6 * costs_.send_s / ticks},
+              {"send_us_max", 1e6 * costs_.send_max_s},
+              {"spread", options_.spread},
+              {"burst_bytes_max", staggered_.burst_bytes_max()},
               {"server_rss_bytes", game::resident_bytes()},
               {"evidence_bytes", serving_.evidence_bytes()},
               {"measured_s", costs_.span_s},
@@ -246,39 +264,6 @@ Json ServerProcess::report() const {
               {"why_invalid", why_invalid}};
   report.update(counted_report(serving_, costs_.begin, costs_.end));
   return report;
-}
-
-/// Throws if no matches of `scene` can be hosted as the options say.
-void require_match(const game::ServeOptions& options, const game::Scene& scene) {
-  if (const auto objection = game::match_objection(scene)) throw std::runtime_error("scene '" + options.scene + "' cannot be hosted: " + *objection);
-  if (game::scene_text(options.scene).size() > game::SceneText::size_max) throw std::runtime_error("scene '" + options.scene + "' is too long a text to be sent to players");
-  if (!options.keys.empty() || options.pace != "realtime" || options.is_time_managed)
-    throw std::runtime_error("a hosted match is played by its players in real time: --keys, --pace and --time-management cannot be given");
-}
-
-/// What a host of matches does unless it is told otherwise.
-void host_by_default(CLI::App& app, game::ServeOptions& options) {
-  if (options.hosted.empty()) return;
-  options.scene = options.hosted;
-  if (app.count("--policy") == 0) options.policy = "on-event";
-  if (app.count("--rate") == 0) options.rate_hz = 60.0;
-  if (app.count("--record") == 0) options.record = "matches";
-}
-
-/// Throws if nobody could ever satisfy the options, or a file for the results could not be written when the run is over.
-void require_room(const game::ServeOptions& options, const game::Scene& scene) {
-  const game::Bodies& bodies = scene.bodies;
-  if (options.clients > bodies.bats.size())
-    throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene + "' has " + std::to_string(bodies.bats.size()) +
-                             " bats; allowed is at most as many");
-  const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
-  if (body_count > body_max)
-    throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
-  if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");
-  game::require_writable("--report", options.report);
-  if (options.hosted.empty()) game::require_writable("--record", options.record);
-  else require_match(options, scene);
-  game::require_writable("--evidence", options.evidence);
 }
 
 /// All that it takes to play the game again up to now and to compare the hash.
@@ -309,19 +294,12 @@ game::ExitStatus show_status(const game::ServeOptions& options) {
 
 game::ExitStatus serve(game::ServeOptions& options) {
   if (!options.status.empty()) return show_status(options);
-  std::string federation = "rink";
-  std::vector<std::string> fom_modules{game::fom_file()};
-  if (!options.federation_file.empty()) {
-    const rti::FederationFile file = rti::load_federation_file(options.federation_file);
-    federation = file.federation;
-    fom_modules = file.fom;
-    options.address = file.nodes.front().address;
-    options.port = file.nodes.front().port;
-  }
-  const rti::Fom fom = game::load_rink_fom(fom_modules);
+  const rti::FederationFile file = game::follow_federation_file(options);
+  const std::string& federation = file.federation;
+  const rti::Fom fom = game::load_rink_fom(file.fom);
   const game::SceneChoice choice{.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
   const game::Scene scene = game::chosen_scene(choice);
-  require_room(options, scene);
+  game::require_room(options, scene);
   std::optional<std::vector<game::InputEvent>> replay;
   if (!options.keys.empty()) {
     game::KeyLog log = game::read_key_log(options.keys);
@@ -336,6 +314,8 @@ game::ExitStatus serve(game::ServeOptions& options) {
   std::fflush(stdout);
   process.try_records();
   const bool is_complete = process.start();
+  const std::uint32_t came = process.server().player_count();  // before they leave
+  const std::string missing = is_complete ? "" : process.missing();
   if (is_complete) process.run();
   Json report = process.report();
   // Both before the players leave, for the hash is of now.
@@ -355,7 +335,7 @@ game::ExitStatus serve(game::ServeOptions& options) {
   }
   if (!is_complete) {
     const std::uint32_t came = process.server().player_count();
-    if (came < options.clients) spdlog::error("{} of {} players came within {} s", came, options.clients, options.patience_s);
+    if (came < options.clients) spdlog::error("{} of {} players came within {} s{}", came, options.clients, options.patience_s, missing);
     else spdlog::error("{} players came, but not all were ready to start within {} s", came, options.patience_s);
     return game::ExitStatus::nobody_came;
   }
@@ -389,7 +369,7 @@ int main(int count, char** values) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
-  host_by_default(app, options);
+  game::host_by_default(app, options);
   game::hear_interrupts();
   return static_cast<int>(serve_or_explain(options));
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
@@ -16,11 +17,13 @@ namespace rink::game {
 struct ServeOptions {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", transport = "tcp", hosted;
   std::string key_file;
+  std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
   bool is_time_managed = false;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
+  double spread = 0.0;
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
 };
 
@@ -35,7 +38,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--bat-count", options.bat_count, "so many bats on the same field instead; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--puck-count", options.puck_count, "so many pucks on the same field instead; 0: as it is")->check(number_from(0, pucks_max))->capture_default_str();
   app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
-  app.add_option("--federation", options.federation_file, "TOML file with federation, fom, address and port (docs/rti.md)");
+  app.add_option("--federation", options.federation_file, "TOML file with federation, fom, and either address and port or a list of nodes, who then are waited for and nobody else let in (docs/rti.md)");
   app.add_option("--address", options.address, "to listen on")->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
   app.add_option("--transport", options.transport, "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients of this machine only, by the port")
@@ -49,6 +52,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();
+  app.add_option("--spread", options.spread, "part of a tick over which its writes are staggered, each client's at a phase of its own; 0: all at once")->check(number_from(0.0, 0.9))->capture_default_str();
   app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")
       ->check(CLI::IsMember({"realtime", "synchronous"}))
       ->capture_default_str();

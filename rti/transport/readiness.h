@@ -51,6 +51,9 @@ class Readiness {
   /// may be. So a file that always has something comes back when all others had their turn. An event may be about a file that was closed since.
   std::optional<Event> next();
 
+  /// True if something that the kernel told is left to take.
+  bool has_left() const { return taken_ != count_; }
+
   /// Can be read when there is an event.
   int file() const { return epoll_.number(); }
 

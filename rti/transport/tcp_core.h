@@ -65,6 +65,7 @@ class TcpTransport::Core {
   void end(Peer& peer, CloseReason reason, const std::string& detail);
   void report_closed();
   void take_what_came();
+  bool read_only_peer(std::chrono::nanoseconds longest_wait);
 
   TcpSettings settings_;
   Readiness readiness_;
@@ -75,6 +76,9 @@ class TcpTransport::Core {
   std::vector<Closed> closed_, reporting_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling
+  std::size_t open_count_ = 0;
+  ConnectionId newest_open_ = 0;
+  std::uint32_t reads_ = 0;                       ///< of an only peer, without being told that there is something
   std::uint64_t bytes_taken_ = 0;                 ///< received by all connections
 };
 

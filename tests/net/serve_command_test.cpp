@@ -144,6 +144,40 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthers) {
+  const std::filesystem::path folder = testing::TempDir();
+  const std::string file = (folder / ("listed-" + std::to_string(getpid()) + ".toml")).string();
+  const int port = 20'000 + getpid() % 10'000;
+  std::ofstream(file) << "federation = \"listed\"\nfom = \"" + test::source_folder() + "/game/net/rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = \"127.0.0.1\"\nport = " + std::to_string(port) +
+                             "\n[[node]]\nname = \"Ada\"\n[[node]]\nname = \"Grace\"\n";
+  const std::vector<std::string> flags{"--scene", "match", "--federation", file, "--duration", "0.3", "--rate", "60", "--patience"};
+  const auto serve_for = [&](const std::string& patience_s) {
+    std::vector<std::string> all = flags;
+    all.push_back(patience_s);
+    return std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", all, std::vector<int>{});
+  };
+  const auto first = serve_for("20");
+  while (!first->line_after("listening on ") && !first->ending()) first->attend(10ms);
+  const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + std::to_string(port), "--federation", "listed", "--duration", "0.2"});
+  EXPECT_EQ(stranger.status, 14);
+  EXPECT_THAT(stranger.words, HasSubstr("members are listed by name in its federation file, and this federate is none of them"));
+  const Ended listed = run("rink-bots", {"--federation-file", file, "--count", "2", "--duration", "0.2"});
+  EXPECT_EQ(listed.status, 0) << listed.words;
+  for (int i = 0; i < 500 && !first->ending(); ++i) first->attend(10ms);
+  ASSERT_TRUE(first->ending());
+  EXPECT_EQ(first->ending()->exit_status, 0) << first->last_words();
+
+  const auto second = serve_for("1");
+  while (!second->line_after("listening on ") && !second->ending()) second->attend(10ms);
+  run("rink-bots", {"--federation-file", file, "--duration", "0.2", "--patience", "2"});
+  for (int i = 0; i < 500 && !second->ending(); ++i) second->attend(10ms);
+  ASSERT_TRUE(second->ending());
+  EXPECT_EQ(second->ending()->exit_status, 17);
+  EXPECT_THAT(second->last_words(), HasSubstr("1 of 2 players came within 1 s; missing: Grace"));
+  EXPECT_THAT(run("rink-bots", {"--federation-file", file, "--count", "3"}).words, HasSubstr("lists 2"));
+  std::filesystem::remove(file);
+}
+
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
   std::optional<std::string> place;

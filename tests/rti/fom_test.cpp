@@ -113,6 +113,25 @@ TEST(FederationFile, GivesOneAddressOrTheListOfNodes) {
   EXPECT_EQ(two.fom, std::vector<std::string>{"/etc/rink.fom.xml"});
   ASSERT_EQ(two.nodes.size(), 2u);
   EXPECT_EQ(two.nodes[1].address, "host-b");
+  EXPECT_EQ(two.members(), std::vector<std::string>{"b"});
+  EXPECT_TRUE(one.members().empty()) << "anybody may join";
+}
+
+TEST(FederationFile, ANodeThatOnlyAsksNeedsNoAddressAndTheRtisAloneIsNoList) {
+  const std::string head = "federation = \"rink\"\nfom = \"rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = \"host-a\"\nport = 7000\n";
+  const FederationFile file = parse_federation_file(head + "[[node]]\nname = \"bat-0\"\n[[node]]\nname = \"bat-1\"\n", "rink.toml");
+  EXPECT_EQ(file.members(), (std::vector<std::string>{"bat-0", "bat-1"}));
+  EXPECT_EQ(file.nodes[2].port, 0);
+  const auto complaint_of = [](const std::string& text) -> std::string {
+    try {
+      parse_federation_file(text, "rink.toml");
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint_of(head), "rink.toml:3: key 'node' lists the RTI's node alone; list those that join it, too, or give 'address' and 'port' instead and let anybody join");
+  EXPECT_EQ(complaint_of(head + "[[node]]\nname = \"bat-0\"\naddress = \"host-b\"\n"), "rink.toml:7: key 'port' is missing");
 }
 
 TEST(FederationFile, ErrorsNameFileLineKeyAndWhatIsAllowed) {

@@ -205,8 +205,8 @@ struct Station {
 /// One federation execution and its federates. `settle` carries everything to its end.
 class Rig {
  public:
-  explicit Rig(Carrier carrier, FederationSettings settings = {}, TcpSettings tcp_settings = {})
-      : carrier_(carrier), execution_(harbour(), settings), host_(execution_), server_tcp_(tcp_settings), server_local_(network_), clients_local_(network_) {
+  explicit Rig(Carrier carrier, FederationSettings settings = {}, TcpSettings tcp_settings = {}, const FederationServices& services = {})
+      : carrier_(carrier), execution_(harbour(), settings, services), host_(execution_), server_tcp_(tcp_settings), server_local_(network_), clients_local_(network_) {
     if (carrier == Carrier::tcp) port_ = server_tcp_.listen("127.0.0.1", 0);
     else if (carrier == Carrier::virtual_network) server_virtual_.listen("rti");
     else server_local_.listen("rti");

@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <optional>
 
+#include "rti/transport/bundle.h"
 #include "rti/transport/in_process.h"
 #include "rti/transport/shared_memory.h"
+#include "rti/transport/staggered_transport.h"
 #include "rti/transport/tcp.h"
 #include "rti/transport/udp.h"
 #include "rti/transport/virtual_network.h"
@@ -106,6 +109,74 @@ class SocketKit final : public TransportKit {
 using TcpKit = SocketKit<TcpTransport, TcpSettings>;
 using UdpKit = SocketKit<UdpTransport, UdpSettings>;
 
+/// All connections over one of TCP.
+class BundleKit final : public TransportKit {
+ public:
+  BundleKit() { restart_server(); }
+  Transport& server() override { return *server_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override {
+    if (!trunk_) trunk_ = tcp_.connect("127.0.0.1", port_);
+    return client_.connect(*trunk_);
+  }
+  ConnectionId connect_to_nobody() override {
+    std::uint16_t port = 0;
+    {
+      TcpTransport gone;
+      port = gone.listen("127.0.0.1", 0);
+    }
+    return client_.connect(tcp_.connect("127.0.0.1", port));
+  }
+  void restart_server() override {
+    server_.reset();
+    server_tcp_.reset();
+    server_tcp_.emplace(settings_);
+    port_ = server_tcp_->listen("127.0.0.1", port_);
+    server_.emplace(*server_tcp_);
+    trunk_.reset();
+  }
+  bool limit_queue(std::size_t queue_max) override {
+    settings_.queue_max = queue_max;
+    return true;
+  }
+
+ private:
+  TcpSettings settings_;
+  std::uint16_t port_ = 0;
+  TcpTransport tcp_;
+  BundledTransport client_{tcp_};
+  std::optional<ConnectionId> trunk_;
+  std::optional<TcpTransport> server_tcp_;
+  std::optional<BundledTransport> server_;
+};
+
+/// TCP whose server staggers what it sends.
+class StaggeredKit final : public TransportKit {
+ public:
+  StaggeredKit() { restart_server(); }
+  Transport& server() override { return *staggered_; }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override { return client_.connect("127.0.0.1", port_); }
+  ConnectionId connect_to_nobody() override { return client_.connect("127.0.0.1", 1); }
+  void restart_server() override {
+    server_.reset();
+    server_.emplace(settings_);
+    port_ = server_->listen("127.0.0.1", port_);
+    staggered_.emplace(*server_, 0.002, [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); });
+  }
+  bool limit_queue(std::size_t queue_max) override {
+    settings_.queue_max = queue_max;
+    return true;
+  }
+
+ private:
+  TcpSettings settings_;
+  std::uint16_t port_ = 0;
+  TcpTransport client_;
+  std::optional<TcpTransport> server_;
+  std::optional<StaggeredTransport> staggered_;
+};
+
 class SampleKit final : public TransportKit {
  public:
   SampleKit() { restart_server(); }
@@ -171,7 +242,7 @@ KitChoice choice(const std::string& name) {
 }  // namespace
 
 std::vector<KitChoice> transport_kits() {
-  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SharedMemoryKit>("shared_memory"), choice<SampleKit>("sample")};
+  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SharedMemoryKit>("shared_memory"), choice<BundleKit>("bundle"), choice<StaggeredKit>("staggered"), choice<SampleKit>("sample")};
 }
 
 }  // namespace rink::rti::testing

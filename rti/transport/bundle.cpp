@@ -1,0 +1,204 @@
+// Records out and in: each connection's bytes under its number.
+#include "rti/transport/bundle.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace rink::rti {
+
+namespace {
+
+void append(std::vector<std::byte>& to, Bytes bytes) {
+  if (bytes.empty()) return;
+  const std::size_t before = to.size();
+  to.resize(before + bytes.size());
+  std::memcpy(to.data() + before, bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+BundledTransport::Trunk& BundledTransport::trunk(ConnectionId id) {
+  if (id >= trunks_.size()) trunks_.resize(id + 1);
+  return trunks_[id];
+}
+
+BundledTransport::Channel* BundledTransport::find(ConnectionId connection) {
+  return connection < channels_.size() && !channels_[connection].is_closed ? &channels_[connection] : nullptr;
+}
+
+ConnectionId BundledTransport::add(ConnectionId trunk_id) {
+  Trunk& carrying = trunk(trunk_id);
+  const auto connection = static_cast<ConnectionId>(channels_.size());
+  channels_.push_back({.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())});
+  carrying.channels.push_back(connection);
+  return connection;
+}
+
+ConnectionId BundledTransport::connect(ConnectionId trunk_id) {
+  Trunk& carrying = trunk(trunk_id);
+  carrying.is_ours = true;
+  const ConnectionId connection = add(trunk_id);
+  if (carrying.is_closed) {
+    end(connection, CloseReason::closed_by_peer, "its trunk was closed before");
+    return connection;
+  }
+  write_header(trunk_id, channels_[connection].number, opens);
+  if (carrying.is_open) news_.push_back({connection, true, {}, {}});
+  return connection;
+}
+
+void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size) {
+  std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
+  if (gathered.empty()) full_.push_back(trunk_id);
+  const std::uint32_t words[] = {number, size};
+  append(gathered, std::as_bytes(std::span(words)));
+}
+
+void BundledTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
+  Channel* channel = find(connection);
+  std::size_t size = 0;
+  for (const Bytes part : parts) size += part.size();
+  if (channel == nullptr || size == 0 || size >= closes) return;
+  ++channel->counters.writes;
+  channel->counters.segments_sent += (size + 1447) / 1448;
+  channel->counters.bytes_sent += size;
+  write_header(channel->trunk, channel->number, static_cast<std::uint32_t>(size));
+  Trunk& carrying = trunks_[channel->trunk];
+  for (const Bytes part : parts) append(carrying.gathered, part);
+  if (carrying.gathered.size() >= gathered_max) send_gathered(channel->trunk);
+}
+
+void BundledTransport::send_gathered(ConnectionId trunk_id) {
+  std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
+  if (gathered.empty()) return;
+  std::erase(full_, trunk_id);
+  const Bytes bytes = gathered;
+  carrier_.send(trunk_id, std::span(&bytes, 1));
+  gathered.clear();
+}
+
+void BundledTransport::push() {
+  while (!full_.empty()) send_gathered(full_.back());
+  carrier_.push();
+}
+
+void BundledTransport::close(ConnectionId connection) {
+  const Channel* channel = find(connection);
+  if (channel == nullptr) return;
+  write_header(channel->trunk, channel->number, closes);
+  end(connection, CloseReason::closed_by_us, "closed by us");
+}
+
+void BundledTransport::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
+  channels_[connection].is_closed = true;
+  news_.push_back({connection, false, reason, detail});
+}
+
+std::size_t BundledTransport::queued_bytes(ConnectionId connection) const {
+  if (connection >= channels_.size() || channels_[connection].is_closed) return 0;
+  const ConnectionId trunk_id = channels_[connection].trunk;
+  return carrier_.queued_bytes(trunk_id) + trunks_[trunk_id].gathered.size();
+}
+
+TransportCounters BundledTransport::counters(ConnectionId connection) const {
+  if (connection >= channels_.size()) return {};
+  TransportCounters counters = channels_[connection].counters;
+  counters.queued_bytes = queued_bytes(connection);
+  return counters;
+}
+
+void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  listener_ = &listener;
+  push();
+  report();
+  carrier_.poll(telling_.empty() && news_.empty() ? longest_wait : std::chrono::nanoseconds(0), *this);
+  report();
+  telling_.clear();
+  listener_ = nullptr;
+}
+
+/// Leaves what it told in `telling_`, so that a poll knows that it has told something.
+void BundledTransport::report() {
+  while (!news_.empty()) {
+    telling_.swap(news_);
+    news_.clear();
+    for (const News& each : telling_) {
+      Channel& channel = channels_[each.connection];
+      if (each.is_open) {
+        if (channel.is_closed || channel.is_open) continue;
+        channel.is_open = true;
+        listener_->on_open(each.connection);
+      } else {
+        listener_->on_close(each.connection, each.reason, each.detail);
+      }
+    }
+  }
+}
+
+void BundledTransport::on_open(ConnectionId trunk_id) {
+  Trunk& opened = trunk(trunk_id);
+  opened.is_open = true;
+  for (const ConnectionId connection : opened.channels) news_.push_back({connection, true, {}, {}});
+  report();
+}
+
+void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
+  while (!bytes.empty() && !trunks_[trunk_id].is_closed) {
+    Trunk& heard = trunks_[trunk_id];
+    if (heard.left == 0) {
+      const std::size_t taken = std::min(sizeof heard.header - heard.header_size, bytes.size());
+      std::memcpy(heard.header + heard.header_size, bytes.data(), taken);
+      heard.header_size += taken;
+      bytes = bytes.subspan(taken);
+      if (heard.header_size < sizeof heard.header) return;
+      heard.header_size = 0;
+      if (!take_header(trunk_id)) {
+        carrier_.close(trunk_id);
+        return on_close(trunk_id, CloseReason::failed, "sent what is no record of a bundle");
+      }
+      continue;
+    }
+    const Bytes part = bytes.first(std::min<std::size_t>(heard.left, bytes.size()));
+    bytes = bytes.subspan(part.size());
+    heard.left -= static_cast<std::uint32_t>(part.size());
+    const ConnectionId connection = heard.channels[heard.number];
+    if (Channel* channel = find(connection)) {  // else it was closed by us, and the peer has not heard yet
+      channel->counters.bytes_received += part.size();
+      listener_->on_bytes(connection, part);
+    }
+  }
+}
+
+bool BundledTransport::take_header(ConnectionId trunk_id) {
+  Trunk& heard = trunks_[trunk_id];
+  std::uint32_t words[2];
+  std::memcpy(words, heard.header, sizeof words);
+  const auto [number, size] = words;
+  if (size == opens) {
+    if (heard.is_ours || number != heard.channels.size() || number >= channel_max) return false;
+    const ConnectionId connection = add(trunk_id);
+    news_.push_back({connection, true, {}, {}});
+    return report(), true;
+  }
+  if (number >= heard.channels.size()) return false;
+  if (size == closes) {
+    if (find(heard.channels[number]) != nullptr) end(heard.channels[number], CloseReason::closed_by_peer, "closed by peer");
+    return report(), true;
+  }
+  heard.number = number;
+  heard.left = size;
+  return true;
+}
+
+void BundledTransport::on_close(ConnectionId trunk_id, CloseReason reason, const std::string& detail) {
+  Trunk& closed = trunk(trunk_id);
+  if (std::exchange(closed.is_closed, true)) return;
+  std::erase(full_, trunk_id);
+  closed.gathered = {};
+  for (const ConnectionId connection : closed.channels)
+    if (find(connection) != nullptr) end(connection, reason, detail);
+  report();
+}
+
+}  // namespace rink::rti

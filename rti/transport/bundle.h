@@ -1,0 +1,79 @@
+// Many connections over one of another transport: the federates of a process share its socket, and one system call serves them all.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/transport/transport.h"
+
+namespace rink::rti {
+
+/// A transport over a transport; both ends must have one. What is sent is gathered for each trunk until the next `push` or `poll`, then goes as one write, so the peer gets a
+/// process's federates with one read: a lockstep of n federates costs two system calls at either end instead of 4 n. What they share is the trunk's queue and its end: one
+/// process that does not read is one slow reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a size of `opens` or `closes` is all of its record.
+/// A peer that sends anything else loses its trunk.
+class BundledTransport final : public Transport, private TransportListener {
+ public:
+  static constexpr std::uint32_t opens = 0xffffffff, closes = 0xfffffffe;
+  static constexpr std::size_t channel_max = 65'536;    ///< that a peer may open on one trunk
+  static constexpr std::size_t gathered_max = 1u << 16; ///< bytes gathered before they are sent anyway
+
+  /// `carrier` must outlive it, and is polled by it alone.
+  explicit BundledTransport(Transport& carrier) : carrier_(carrier) {}
+
+  /// A connection over `trunk`, one of the carrier's, which may still be opening; `on_open` follows in a poll, or `on_close` with the trunk's reason.
+  ConnectionId connect(ConnectionId trunk);
+
+  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
+  void send(ConnectionId connection, std::span<const Bytes> parts) override;
+  void close(ConnectionId connection) override;
+  std::size_t queued_bytes(ConnectionId connection) const override;
+  /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
+  TransportCounters counters(ConnectionId connection) const override;
+  void push() override;
+
+ private:
+  struct Channel {
+    ConnectionId trunk = 0;
+    std::uint32_t number = 0;  ///< on its trunk
+    bool is_open = false, is_closed = false;
+    TransportCounters counters{};
+  };
+  struct Trunk {
+    bool is_open = false, is_closed = false, is_ours = false;  ///< we connected it: channels are numbered and opened by us
+    std::vector<ConnectionId> channels;  ///< by number
+    std::vector<std::byte> gathered;
+    std::byte header[8] = {};
+    std::size_t header_size = 0;         ///< of it heard
+    std::uint32_t number = 0, left = 0;  ///< of the record at hand
+  };
+  struct News {
+    ConnectionId connection;
+    bool is_open;
+    CloseReason reason;
+    std::string detail;
+  };
+
+  void on_open(ConnectionId trunk) override;
+  void on_bytes(ConnectionId trunk, Bytes bytes) override;
+  void on_close(ConnectionId trunk, CloseReason reason, const std::string& detail) override;
+
+  Trunk& trunk(ConnectionId id);
+  Channel* find(ConnectionId connection);
+  ConnectionId add(ConnectionId trunk_id);
+  void write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size);
+  void send_gathered(ConnectionId trunk_id);
+  /// False if the header is none.
+  bool take_header(ConnectionId trunk_id);
+  void end(ConnectionId connection, CloseReason reason, const std::string& detail);
+  void report();
+
+  Transport& carrier_;
+  std::vector<Trunk> trunks_;      ///< by the carrier's connection
+  std::vector<Channel> channels_;  ///< by connection
+  std::vector<ConnectionId> full_; ///< trunks with something gathered
+  std::vector<News> news_, telling_;
+  TransportListener* listener_ = nullptr;  ///< while polling
+};
+
+}  // namespace rink::rti

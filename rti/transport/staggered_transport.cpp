@@ -1,0 +1,87 @@
+// Holds writes until their slot's time has come.
+#include "rti/transport/staggered_transport.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace rink::rti {
+
+void StaggeredTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  const double now = now_s_();
+  release(now);
+  if (slots_taken_ > 0) {
+    const auto next = std::ranges::find_if(slots_, [](const auto& slot) { return !slot.empty(); });
+    const double wait_s = std::max(0.0, due_s(static_cast<std::size_t>(next - slots_.begin())) - now);
+    longest_wait = std::min(longest_wait, std::chrono::nanoseconds(static_cast<std::int64_t>(wait_s * 1e9)));
+  }
+  inner_.poll(longest_wait, listener);
+  if (slots_taken_ > 0) release(now_s_());
+}
+
+void StaggeredTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
+  std::size_t size = 0;
+  for (const Bytes part : parts) size += part.size();
+  if (size == 0) return;
+  const double now = now_s_();
+  if (window_s_ <= 0.0) return give(connection, parts, size, now);
+  if (connection >= waiting_.size()) waiting_.resize(connection + 1);
+  std::vector<std::byte>& waiting = waiting_[connection];
+  if (waiting.empty()) {
+    if (slots_taken_ == 0) begun_s_ = now;
+    std::vector<ConnectionId>& slot = slots_[connection % slot_count];
+    if (slot.empty()) ++slots_taken_;
+    slot.push_back(connection);
+  }
+  std::size_t at = waiting.size();
+  waiting.resize(at + size);
+  for (const Bytes part : parts) {
+    if (part.empty()) continue;
+    std::memcpy(waiting.data() + at, part.data(), part.size());
+    at += part.size();
+  }
+}
+
+void StaggeredTransport::release(double now) {
+  bool has_given = false;
+  for (std::size_t slot = 0; slot < slot_count && slots_taken_ > 0 && due_s(slot) <= now; ++slot) {
+    if (slots_[slot].empty()) continue;
+    for (const ConnectionId connection : slots_[slot]) give_waiting(connection, now);
+    slots_[slot].clear();
+    --slots_taken_;
+    has_given = true;
+  }
+  if (has_given) inner_.push();
+}
+
+void StaggeredTransport::give_waiting(ConnectionId connection, double now) {
+  const Bytes bytes = waiting_[connection];
+  if (bytes.empty()) return;  // closed since
+  give(connection, std::span(&bytes, 1), bytes.size(), now);
+  waiting_[connection].clear();
+}
+
+void StaggeredTransport::give(ConnectionId connection, std::span<const Bytes> parts, std::size_t size, double now) {
+  if (now - burst_begun_s_ >= burst_s) {
+    burst_begun_s_ = now;
+    burst_bytes_ = 0;
+  }
+  burst_bytes_ += size;
+  burst_bytes_max_ = std::max(burst_bytes_max_, burst_bytes_);
+  inner_.send(connection, parts);
+}
+
+void StaggeredTransport::close(ConnectionId connection) {
+  if (connection < waiting_.size()) give_waiting(connection, now_s_());
+  inner_.close(connection);
+}
+
+std::size_t StaggeredTransport::queued_bytes(ConnectionId connection) const {
+  return inner_.queued_bytes(connection) + (connection < waiting_.size() ? waiting_[connection].size() : 0);
+}
+
+void StaggeredTransport::push() {
+  if (slots_taken_ > 0) release(now_s_());
+  inner_.push();
+}
+
+}  // namespace rink::rti
