@@ -32,7 +32,9 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
   measurements_.until_s = settings.duration_s;
   for (std::uint32_t bot = 0; bot < count; ++bot) {
     const game::ClientSettings client{
-        .federation = settings.federation, .name = settings.first + bot < settings.names.size() ? settings.names[settings.first + bot] : "bat-" + std::to_string(settings.first + bot), .view_fraction = settings.view_fraction,
+        .federation = settings.federation,
+        .name = settings.first + bot < settings.names.size() ? settings.names[settings.first + bot] : "bat-" + std::to_string(settings.first + bot),
+        .view_fraction = settings.view_fraction,
         .view_area = settings.view_area, .view_margin = settings.view_margin};
     bots_.push_back(std::make_unique<Bot>(fom, model_, client, measurements_));
     if (!settings_.players.do_decide()) continue;

@@ -24,9 +24,11 @@ void StaggeredTransport::send(ConnectionId connection, std::span<const Bytes> pa
   if (size == 0) return;
   const double now = now_s_();
   if (window_s_ <= 0.0) return give(connection, parts, size, now);
-  if (connection >= waiting_.size()) waiting_.resize(connection + 1);
+  if (connection >= waiting_.size()) waiting_.resize(connection + 1), joined_writes_.resize(connection + 1);
   std::vector<std::byte>& waiting = waiting_[connection];
-  if (waiting.empty()) {
+  if (!waiting.empty()) {
+    ++joined_writes_[connection];
+  } else {
     if (slots_taken_ == 0) begun_s_ = now;
     std::vector<ConnectionId>& slot = slots_[connection % slot_count];
     if (slot.empty()) ++slots_taken_;
@@ -73,6 +75,12 @@ void StaggeredTransport::give(ConnectionId connection, std::span<const Bytes> pa
 void StaggeredTransport::close(ConnectionId connection) {
   if (connection < waiting_.size()) give_waiting(connection, now_s_());
   inner_.close(connection);
+}
+
+TransportCounters StaggeredTransport::counters(ConnectionId connection) const {
+  TransportCounters counters = inner_.counters(connection);
+  if (connection < joined_writes_.size()) counters.writes += joined_writes_[connection];
+  return counters;
 }
 
 std::size_t StaggeredTransport::queued_bytes(ConnectionId connection) const {

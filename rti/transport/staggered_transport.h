@@ -27,7 +27,8 @@ class StaggeredTransport final : public Transport {
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
   std::size_t queued_bytes(ConnectionId connection) const override;
-  TransportCounters counters(ConnectionId connection) const override { return inner_.counters(connection); }
+  /// Writes are those asked for; fewer leave where one waits for its phase and more is sent meanwhile.
+  TransportCounters counters(ConnectionId connection) const override;
   std::size_t datagram_max(ConnectionId connection) const override { return inner_.datagram_max(connection); }
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override { inner_.send_datagrams(connection, datagrams); }
   void push() override;
@@ -47,6 +48,7 @@ class StaggeredTransport final : public Transport {
   double window_s_;
   Clock now_s_;
   std::vector<std::vector<std::byte>> waiting_;                      ///< by connection
+  std::vector<std::uint64_t> joined_writes_;                         ///< by connection: writes that went with one before
   std::array<std::vector<ConnectionId>, slot_count> slots_;          ///< who waits for it
   std::size_t slots_taken_ = 0;                                      ///< with somebody in it
   double begun_s_ = 0.0;                                             ///< when the first of those who wait was sent

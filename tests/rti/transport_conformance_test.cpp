@@ -292,6 +292,7 @@ TEST_P(TransportContract, APollIsWokenByWhatIsSent) {
   std::thread sender([&] {
     std::this_thread::sleep_for(50ms);
     send(kit->client(), connection, stretch(0, 24));
+    kit->client().push();
   });
   const auto start = std::chrono::steady_clock::now();
   while (here.lines[newest_here()].bytes.empty() && std::chrono::steady_clock::now() - start < 5s) kit->server().poll(5s, here);

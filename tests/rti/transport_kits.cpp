@@ -69,6 +69,11 @@ class VirtualKit final : private Delay, public LocalKit<VirtualNetwork, VirtualE
   bool limit_queue(std::size_t) override { return false; }  // what is under way is the network's, not a queue
 };
 
+std::uint16_t port_of_nobody() {
+  TcpTransport gone;
+  return gone.listen("127.0.0.1", 0);
+}
+
 /// TCP, and UDP beside it, which is set up and limited in the same way.
 template <class Socket, class Settings>
 class SocketKit final : public TransportKit {
@@ -81,12 +86,7 @@ class SocketKit final : public TransportKit {
     return client_.connect("127.0.0.1", port_);
   }
   ConnectionId connect_to_nobody() override {
-    std::uint16_t port = 0;
-    {
-      TcpTransport gone;
-      port = gone.listen("127.0.0.1", 0);
-    }
-    return client_.connect("127.0.0.1", port);
+    return client_.connect("127.0.0.1", port_of_nobody());
   }
   void restart_server() override {
     server_.reset();
@@ -109,72 +109,68 @@ class SocketKit final : public TransportKit {
 using TcpKit = SocketKit<TcpTransport, TcpSettings>;
 using UdpKit = SocketKit<UdpTransport, UdpSettings>;
 
-/// All connections over one of TCP.
-class BundleKit final : public TransportKit {
+/// What stands on top of TCP: `Above` is made anew over each new TCP server.
+template <class Above>
+class AboveTcpKit : public TransportKit {
  public:
-  BundleKit() { restart_server(); }
-  Transport& server() override { return *server_; }
-  Transport& client() override { return client_; }
-  ConnectionId connect() override {
-    if (!trunk_) trunk_ = tcp_.connect("127.0.0.1", port_);
-    return client_.connect(*trunk_);
-  }
-  ConnectionId connect_to_nobody() override {
-    std::uint16_t port = 0;
-    {
-      TcpTransport gone;
-      port = gone.listen("127.0.0.1", 0);
-    }
-    return client_.connect(tcp_.connect("127.0.0.1", port));
-  }
+  Transport& server() override { return *above_; }
+  ConnectionId connect_to_nobody() override { return connect_at(port_of_nobody()); }
   void restart_server() override {
-    server_.reset();
-    server_tcp_.reset();
-    server_tcp_.emplace(settings_);
-    port_ = server_tcp_->listen("127.0.0.1", port_);
-    server_.emplace(*server_tcp_);
-    trunk_.reset();
-  }
-  bool limit_queue(std::size_t queue_max) override {
-    settings_.queue_max = queue_max;
-    return true;
-  }
-
- private:
-  TcpSettings settings_;
-  std::uint16_t port_ = 0;
-  TcpTransport tcp_;
-  BundledTransport client_{tcp_};
-  std::optional<ConnectionId> trunk_;
-  std::optional<TcpTransport> server_tcp_;
-  std::optional<BundledTransport> server_;
-};
-
-/// TCP whose server staggers what it sends.
-class StaggeredKit final : public TransportKit {
- public:
-  StaggeredKit() { restart_server(); }
-  Transport& server() override { return *staggered_; }
-  Transport& client() override { return client_; }
-  ConnectionId connect() override { return client_.connect("127.0.0.1", port_); }
-  ConnectionId connect_to_nobody() override { return client_.connect("127.0.0.1", 1); }
-  void restart_server() override {
+    above_.reset();
     server_.reset();
     server_.emplace(settings_);
     port_ = server_->listen("127.0.0.1", port_);
-    staggered_.emplace(*server_, 0.002, [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); });
+    set_up(above_, *server_);
   }
   bool limit_queue(std::size_t queue_max) override {
     settings_.queue_max = queue_max;
     return true;
   }
 
+ protected:
+  virtual ConnectionId connect_at(std::uint16_t port) = 0;
+  virtual void set_up(std::optional<Above>& above, TcpTransport& below) = 0;
+  std::uint16_t port_ = 0;
+  TcpTransport client_tcp_;
+
  private:
   TcpSettings settings_;
-  std::uint16_t port_ = 0;
-  TcpTransport client_;
   std::optional<TcpTransport> server_;
-  std::optional<StaggeredTransport> staggered_;
+  std::optional<Above> above_;
+};
+
+/// All connections over one of TCP.
+class BundleKit final : public AboveTcpKit<BundledTransport> {
+ public:
+  BundleKit() { restart_server(); }
+  Transport& client() override { return client_; }
+  ConnectionId connect() override {
+    if (!trunk_) trunk_ = client_tcp_.connect("127.0.0.1", port_);
+    return client_.connect(*trunk_);
+  }
+
+ private:
+  ConnectionId connect_at(std::uint16_t port) override { return client_.connect(client_tcp_.connect("127.0.0.1", port)); }
+  void set_up(std::optional<BundledTransport>& above, TcpTransport& below) override {
+    above.emplace(below);
+    trunk_.reset();
+  }
+  BundledTransport client_{client_tcp_};
+  std::optional<ConnectionId> trunk_;
+};
+
+/// TCP whose server staggers what it sends.
+class StaggeredKit final : public AboveTcpKit<StaggeredTransport> {
+ public:
+  StaggeredKit() { restart_server(); }
+  Transport& client() override { return client_tcp_; }
+  ConnectionId connect() override { return connect_at(port_); }
+
+ private:
+  ConnectionId connect_at(std::uint16_t port) override { return client_tcp_.connect("127.0.0.1", port); }
+  void set_up(std::optional<StaggeredTransport>& above, TcpTransport& below) override {
+    above.emplace(below, 0.002, [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); });
+  }
 };
 
 class SampleKit final : public TransportKit {
@@ -242,7 +238,8 @@ KitChoice choice(const std::string& name) {
 }  // namespace
 
 std::vector<KitChoice> transport_kits() {
-  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"), choice<SharedMemoryKit>("shared_memory"), choice<BundleKit>("bundle"), choice<StaggeredKit>("staggered"), choice<SampleKit>("sample")};
+  return {choice<InProcessKit>("in_process"), choice<VirtualKit>("virtual_network"), choice<TcpKit>("tcp"), choice<UdpKit>("udp"),
+          choice<SharedMemoryKit>("shared_memory"), choice<BundleKit>("bundle"), choice<StaggeredKit>("staggered"), choice<SampleKit>("sample")};
 }
 
 }  // namespace rink::rti::testing
