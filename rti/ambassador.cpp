@@ -23,9 +23,15 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
   if (object_class.value >= declared_.objects.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
   if (declared_.objects[object_class.value].published.is_empty()) throw RtiException(HlaError::object_class_not_published, "class " + fom_.at(object_class).name);
+  if (!name.empty()) {
+    require_name(name);
+    if (names_.find(name)) throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
+  }
   if (objects_registered_ == object_block) return {};
   const ObjectHandle object{object_block_ * object_block + objects_registered_++};
   own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
+  names_.end_reservation(name);
+  names_.give(object, name);
   say(RegisterObjectMessage{object.value, static_cast<std::uint16_t>(object_class.value), name});
   return object;
 }
@@ -87,7 +93,7 @@ void Ambassador::send_interaction(InteractionClassHandle interaction_class, Byte
 }
 
 void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp) {
-  assert(phase_ == Phase::joined && interaction_class.value < fom_.interaction_classes().size());
+  require_published(interaction_class);
   if (spares_interaction(interaction_class)) return;
   say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp, parameters});
   ++counters_.interactions_sent;
@@ -123,6 +129,7 @@ void Ambassador::forget(ObjectHandle object) {
   holdings_.erase(object);
   regions_.forget(object);
   declared_.spared.forget(object);
+  names_.forget(object);
   if (is_ours(object)) own_[object.value % object_block] = {};
   else known_.erase(object);
 }
@@ -139,7 +146,7 @@ KnownObject* Ambassador::find(ObjectHandle object) {
 
 std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
-  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + regions_.memory_bytes() +
+  return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
          declared_.memory_bytes();
 }

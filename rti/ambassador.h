@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "im/filter.h"
+#include "rti/advisory_switches.h"
 #include "rti/ambassador_counters.h"
 #include "rti/baselines/keyframe_memory.h"
 #include "rti/callbacks/callback_queue.h"
@@ -23,6 +24,7 @@
 #include "rti/objects/arrival_order.h"
 #include "rti/objects/declared_state.h"
 #include "rti/objects/known_object.h"
+#include "rti/objects/name_book.h"
 #include "rti/wire/object_block.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
@@ -36,14 +38,16 @@ struct DeltaHeader;
 
 /// One federate. No I/O, no clock, no thread: its owner carries `outgoing` to the RTI and what comes back to `receive`, and hands in the time.
 /// Services assert on the programmer's mistakes (an object of somebody else, an undeclared class).
-class Ambassador : public FomLookup {
+class Ambassador : public FomLookup, public AdvisorySwitches<Ambassador> {
  public:
   /// Both must outlive the ambassador.
   Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience = {}, CallbackModel model = CallbackModel::immediate);
 
   /// Federation management. These three ask the host, before the join; answered by `federation_execution_created`, `…_destroyed` and
   /// `report_federation_executions`. The new execution has this ambassador's object model, which the host must offer. Throw FederateAlreadyExecutionMember.
-  void create_federation_execution(std::string_view federation);
+  void create_federation_execution(std::string_view federation) { create_federation_execution(federation, fom_); }
+  /// The same with another model that the host offers.
+  void create_federation_execution(std::string_view federation, const Fom& model);
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
   /// Asks for the counters of the management object model, answered by `report_management`: before the join about every execution of the host, after it about one's own.
@@ -72,15 +76,6 @@ class Ambassador : public FomLookup {
   void unpublish_interaction_class(InteractionClassHandle interaction_class);
   void subscribe_interaction_class(InteractionClassHandle interaction_class, bool is_active = true);
   void unsubscribe_interaction_class(InteractionClassHandle interaction_class);
-  /// Advisory switches (10.27 to 10.34), all on at first but that of attribute relevance; what is so already throws.
-  void enable_object_class_relevance_advisory_switch() { switch_advisory(Advisory::object_class_relevance, true); }
-  void disable_object_class_relevance_advisory_switch() { switch_advisory(Advisory::object_class_relevance, false); }
-  void enable_attribute_relevance_advisory_switch() { switch_advisory(Advisory::attribute_relevance, true); }
-  void disable_attribute_relevance_advisory_switch() { switch_advisory(Advisory::attribute_relevance, false); }
-  void enable_attribute_scope_advisory_switch() { switch_advisory(Advisory::attribute_scope, true); }
-  void disable_attribute_scope_advisory_switch() { switch_advisory(Advisory::attribute_scope, false); }
-  void enable_interaction_relevance_advisory_switch() { switch_advisory(Advisory::interaction_relevance, true); }
-  void disable_interaction_relevance_advisory_switch() { switch_advisory(Advisory::interaction_relevance, false); }
 
   /// Ownership management (clause 7). The privilege to delete an object is its attribute `privilege_to_delete_object`. The RTI decides and answers by callbacks;
   /// a federate loses an attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown, AttributeNotDefined, AttributeNotOwned and those named.
@@ -108,9 +103,25 @@ class Ambassador : public FomLookup {
   /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of these.
   void resign(ResignAction action);
 
-  /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/wire/message.h). The name may be empty.
+  /// Object management. The handle is usable at once; empty after `object_block` registrations (rti/wire/message.h). A name that was not reserved is reserved by this; if it is not
+  /// free, `object_instance_name_reservation_failed` tells so and the object goes by its default name. IllegalName, ObjectInstanceNameInUse if that is known here.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
+  /// As if it had never been discovered: it will be when it next comes into scope. FederateOwnsAttributes, OwnershipAcquisitionPending.
+  void local_delete_object_instance(ObjectHandle object);
+  /// Answered by `object_instance_name_reservation_succeeded` or `…_failed`, a set as one. IllegalName, NameSetWasEmpty; a release that is none throws ObjectInstanceNameNotReserved.
+  void reserve_object_instance_name(std::string_view name);
+  void reserve_multiple_object_instance_names(std::span<const std::string_view> names);
+  void release_object_instance_name(std::string_view name) { release_multiple_object_instance_names(std::span(&name, 1)); }
+  void release_multiple_object_instance_names(std::span<const std::string_view> names);
+  /// Asks the owners for values: `provide_attribute_value_update`, with the tag of at most 1,024 bytes.
+  void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes, Bytes tag = {});
+  void request_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
+  /// Confirmed by a callback, as what is asked for is answered by one (6.23 to 6.30). AttributeNotOwned, InteractionClassNotPublished.
+  void request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes, Transportation transportation);
+  void query_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute);
+  void request_interaction_transportation_type_change(InteractionClassHandle interaction_class, Transportation transportation);
+  void query_interaction_transportation_type(FederateHandle federate, InteractionClassHandle interaction_class);
   /// `values` as in `reflect_attribute_values`. Successive updates of one class, set and stamp travel as one block.
   void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp);
   /// To all who subscribe to the class, never back to the sender. At most 32 KiB.
@@ -151,7 +162,9 @@ class Ambassador : public FomLookup {
   /// Look-ups beyond those of the object model; NameNotFound. Federates are known from `watch_federates`, and oneself.
   FederateHandle get_federate_handle(std::string_view name) const;
   const std::string& get_federate_name(FederateHandle federate) const;
-  /// Of an object that is known or own; ObjectInstanceNotKnown.
+  /// Of objects that are known or own; ObjectInstanceNotKnown.
+  ObjectHandle get_object_instance_handle(std::string_view name) const;
+  std::string get_object_instance_name(ObjectHandle object) const;
   ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
 
   /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the oldest, or up to `count_max` in their order, and return whether more
@@ -215,6 +228,7 @@ class Ambassador : public FomLookup {
   std::size_t memory_bytes() const;
 
  private:
+  friend AdvisorySwitches<Ambassador>;
   enum class Phase : std::uint8_t { idle, joining, joined, ended };
   /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
   template <class Message>
@@ -241,6 +255,10 @@ class Ambassador : public FomLookup {
   bool take_federate(Reader& reader, std::uint8_t kind);
   bool take_digest(Reader& reader);
   bool take_provide_update(Reader& reader);
+  // Objects beyond updates (ambassador_objects.cpp).
+  void ask_names(std::uint8_t word, std::span<const std::string_view> names);
+  bool take_names(Reader& reader);
+  bool take_transportation(Reader& reader);
   bool take_object(Reader& reader, std::uint8_t kind);
   bool take_scope(Reader& reader, std::uint8_t kind);
   bool take_stamp(Reader& reader);
@@ -298,6 +316,8 @@ class Ambassador : public FomLookup {
   // Declarations (ambassador_declarations.cpp).
   void require_class(ObjectClassHandle object_class, AttributeSet attributes) const;
   void require_class(InteractionClassHandle interaction_class) const;
+  void require_published(InteractionClassHandle interaction_class) const;
+  static void require_name(std::string_view name);
   void declare_publication(InteractionClassHandle interaction_class, bool is_published);
   void declare_subscription(InteractionClassHandle interaction_class, Listening listening);
   void switch_advisory(Advisory advisory, bool is_on);
@@ -335,6 +355,7 @@ class Ambassador : public FomLookup {
   std::vector<KnownObject> own_;    ///< registered here, by number within our block
   ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
   std::vector<GoneObject> gone_;    ///< of others, that the RTI may still tell of
+  NameBook names_;
   RegionBook regions_;
   std::vector<Range> ranges_;
   std::string fom_difference_;  ///< from the federation's model, if the RTI told
@@ -349,14 +370,7 @@ class Ambassador : public FomLookup {
   ObjectBlockWriter object_block_writer_;  ///< the block of objects at the end of `outgoing_`, if any
   FrameWriter outgoing_;
   FrameReader incoming_;
-  /// The block of updates that still grows at the end of `outgoing_`, if any.
-  struct OpenUpdates {
-    bool is_open = false;
-    ObjectClassHandle object_class;
-    AttributeSet attributes;
-    Stamp stamp;
-    std::uint32_t last_object = 0;
-  } open_;
+  OpenUpdates open_;  ///< that still grow at the end of `outgoing_`, if any
   Stamp said_stamp_;                   ///< the last one said
   std::uint64_t stamped_frame_ = 0;    ///< the frame in which it was said: a stamp is good for its frame
   std::optional<Stamp> heard_stamp_;   ///< of the frame being read
@@ -381,13 +395,7 @@ class Ambassador : public FomLookup {
   std::vector<std::byte> postponed_, content_; ///< messages in receive order that wait for the next request; the message inside one that goes in time-stamp order
   std::unordered_map<std::uint32_t, AttributeSet> order_changes_;  ///< objects whose attributes go in another order than the model says: those in time-stamp order
   std::vector<Order> interaction_orders_;                              ///< by class, once one differs from the model
-  struct Deletion {
-    std::uint64_t number = 0;
-    std::uint32_t object = 0;
-    KnownObject known;
-    double time = 0.0;
-  };
-  std::vector<Deletion> deletions_;       ///< in time-stamp order, as long as they can be taken back
+  std::vector<TimedDeletion> deletions_;       ///< in time-stamp order, as long as they can be taken back
 };
 
 }  // namespace rink::rti

@@ -61,6 +61,13 @@ void Ambassador::require_class(InteractionClassHandle interaction_class) const {
   if (interaction_class.value >= fom_.interaction_classes().size()) throw RtiException(HlaError::interaction_class_not_defined, "class " + std::to_string(interaction_class.value));
 }
 
+void Ambassador::require_published(InteractionClassHandle interaction_class) const {
+  if (phase_ != Phase::joined) refuse_stranger();
+  require_class(interaction_class);
+  if (declared_.interactions[interaction_class.value].published.is_empty())
+    throw RtiException(HlaError::interaction_class_not_published, "class " + fom_.at(interaction_class).name);
+}
+
 void Ambassador::switch_advisory(Advisory advisory, bool is_on) {
   if (phase_ != Phase::joined) refuse_stranger();
   if (declared_.is_on(advisory) == is_on) {

@@ -29,10 +29,10 @@ void Ambassador::ask(Message message) {
   outgoing_.close_frame();
 }
 
-void Ambassador::create_federation_execution(std::string_view federation) {
+void Ambassador::create_federation_execution(std::string_view federation, const Fom& model) {
   require_text(federation, text_max, "the federation execution's name");
   if (federation.empty()) throw RtiException(HlaError::illegal_name, "a federation execution needs a name");
-  ask(CreateFederationExecutionMessage{federation, fom_.hash()});
+  ask(CreateFederationExecutionMessage{federation, model.hash()});
 }
 
 void Ambassador::destroy_federation_execution(std::string_view federation) {

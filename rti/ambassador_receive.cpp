@@ -84,6 +84,8 @@ bool Ambassador::take_message(Reader& reader) {
     case MessageKind::in_scope:
     case MessageKind::out_of_scope: return take_scope(reader, kind);
     case MessageKind::provide_update: return take_provide_update(reader);
+    case MessageKind::instance_names_answer: return take_names(reader);
+    case MessageKind::transportation: return take_transportation(reader);
     case MessageKind::class_relevance: return take_class_relevance(reader);
     case MessageKind::object_relevance: return take_object_relevance(reader);
     case MessageKind::ownership_notice:
@@ -171,7 +173,9 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
   std::erase_if(gone_, [object](const GoneObject& each) { return each.object == object; });
   known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;
-  callbacks_.discover_object_instance(object, {message.object_class}, message.name);
+  names_.give(object, message.name);
+  if (!message.name.empty()) callbacks_.discover_object_instance(object, {message.object_class}, message.name);
+  else callbacks_.discover_object_instance(object, {message.object_class}, NameBook::default_name(object));
   return true;
 }
 

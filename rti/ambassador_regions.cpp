@@ -139,7 +139,7 @@ bool Ambassador::take_provide_update(Reader& reader) {
   const AttributeSet attributes{message.attributes};
   if (known == nullptr) return is_gone({message.object});
   if (!fom_.attributes(ObjectClassHandle{known->object_class}).includes(attributes)) return false;
-  callbacks_.provide_attribute_value_update({message.object}, attributes);
+  callbacks_.provide_attribute_value_update({message.object}, attributes, message.tag);
   return true;
 }
 
@@ -165,6 +165,7 @@ void Ambassador::subscribe_with_regions(InteractionClassHandle interaction_class
 
 void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp) {
   check(interaction_class, regions);
+  require_published(interaction_class);
   if (spares_interaction(interaction_class)) return;
   write_numbers(regions);
   say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp, static_cast<std::uint16_t>(regions.size()), region_records_, parameters});

@@ -134,7 +134,7 @@ RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, Logical
   DeleteObjectMessage message{object.value};
   write(content_, message);
   const RetractionHandle handle = say_timed(time, tag, content_);
-  std::erase_if(deletions_, [this](const Deletion& each) { return each.time < clock_.earliest_ever(); });
+  std::erase_if(deletions_, [this](const TimedDeletion& each) { return each.time < clock_.earliest_ever(); });
   deletions_.push_back({handle.number, object.value, *known, time.value});
   *known = {};
   return handle;
@@ -143,7 +143,7 @@ RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, Logical
 void Ambassador::retract(const RetractionHandle& handle) {
   clock_.ask_retraction(handle, federate_);
   say(RetractMessage{handle.number});
-  const auto deletion = std::ranges::find(deletions_, handle.number, &Deletion::number);
+  const auto deletion = std::ranges::find(deletions_, handle.number, &TimedDeletion::number);
   if (deletion == deletions_.end()) return;
   if (is_ours({deletion->object})) own_[deletion->object % object_block] = deletion->known;
   else known_[{deletion->object}] = deletion->known;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rti/fom/attribute_set.h"
+#include "rti/fom/fom.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
 #include "rti/hla_error.h"
@@ -75,6 +76,16 @@ class FederateAmbassador {
   virtual void turn_updates_on_for_object_instance(ObjectHandle, AttributeSet) {}
   virtual void turn_updates_off_for_object_instance(ObjectHandle, AttributeSet) {}
 
+  /// Names of objects. A failure also tells that an object which was registered by a name that is not free goes by its default name.
+  virtual void object_instance_name_reservation_succeeded(std::string_view /*name*/) {}
+  virtual void object_instance_name_reservation_failed(std::string_view /*name*/) {}
+  virtual void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& /*names*/) {}
+  virtual void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& /*names*/) {}
+  virtual void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet, Transportation) {}
+  virtual void report_attribute_transportation_type(ObjectHandle, AttributeHandle, Transportation) {}
+  virtual void confirm_interaction_transportation_type_change(InteractionClassHandle, Transportation) {}
+  virtual void report_interaction_transportation_type(FederateHandle, InteractionClassHandle, Transportation) {}
+
   /// At most once per object. The class is the one it was registered with, which may inherit from the subscribed one.
   virtual void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view /*name*/) {}
   /// `values` are concatenated in the order of the attributes; one of variable size is preceded by its length [bytes] as a little-endian u32.
@@ -82,7 +93,7 @@ class FederateAmbassador {
   virtual void attributes_in_scope(ObjectHandle) {}
   virtual void attributes_out_of_scope(ObjectHandle) {}
   /// Somebody asks for these attributes of an own object.
-  virtual void provide_attribute_value_update(ObjectHandle, AttributeSet) {}
+  virtual void provide_attribute_value_update(ObjectHandle, AttributeSet, Bytes /*tag of the request*/) {}
   virtual void remove_object_instance(ObjectHandle) {}
 
   /// Ownership management. These attributes look for an owner: acquire them, if available, or let them be.

@@ -27,7 +27,7 @@ void FederationExecution::Parts::list_best_effort() {
 }
 
 void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes values) {
-  const AttributeSet best_effort = attributes & best_effort_[objects_[object].object_class], reliable(attributes.bits & ~best_effort.bits);
+  const AttributeSet best_effort = attributes & by_datagram(object), reliable(attributes.bits & ~best_effort.bits);
   const Stamp& stamp = federates_[slot].newest;
   if (best_effort.is_empty() || reliable.is_empty()) return buffering_->append(slot, object, objects_[object], attributes, stamp, values);
   for (const AttributeSet part : {reliable, best_effort}) {
@@ -104,7 +104,8 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index, const Feder
   if (!best_effort_[run.object_class].includes(run.attributes)) return false;
   const CutRun& cut = batch_.cut(index, run, datagram_size_max_);
   if (!cut.fits) return false;
-  const bool is_whole = interest.is_uniform && !interest.has_fresh && interest.by_class[run.object_class].includes(run.attributes);
+  const bool has_changed = changed_transportation_.size() > 0;
+  const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh && interest.by_class[run.object_class].includes(run.attributes);
   if (is_whole && is_all_in_scope(run, interest.in_scope)) {
     batch_.add(cut);
     counters_.updates_sent += run.slots.size();
@@ -119,8 +120,11 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index, const Feder
       cut_values(fom_.object_classes()[run.object_class], run.attributes, wanted, values, values_);
       values = values_;
     }
-    batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values);
     ++counters_.updates_sent;
+    if (!has_changed || by_datagram(run.slots[record]).includes(wanted)) return void(batch_.add(run.object_class, wanted, run.stamp, run.records[record].handle, values));
+    write_stamp(run.stamp);
+    say(scratch_, UpdatesMessage{run.object_class, wanted.bits});
+    RecordWriter(scratch_).add(run.records[record].handle, values);
   });
   return true;
 }

@@ -163,6 +163,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   federate.is_joined = federate.is_watching = false;
   subscribed(slot);
   groups_->remove_federate(slot);
+  leave_names(slot);
   leave_points(slot);
   for (Federate& other : federates_)
     if (other.is_watching)

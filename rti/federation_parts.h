@@ -12,6 +12,7 @@
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_block.h"
+#include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/objects/object_map.h"
 #include "rti/objects/object_table.h"
@@ -44,6 +45,7 @@ class FederationExecution::Parts {
     std::vector<std::byte> control;  ///< messages that go out before this flush's updates
     std::vector<std::byte> tail;     ///< and after them
     ObjectBlockWriter tail_block;    ///< the block at the end of `tail`, if any
+    std::vector<std::pair<std::uint16_t, Transportation>> changed_transportation;  ///< of interactions that it sends otherwise than the model says
     ResignAction resign_action = ResignAction::cancel_then_delete_then_divest;
     std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
     Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
@@ -142,6 +144,22 @@ class FederationExecution::Parts {
   Outcome take_spare_update(std::uint32_t slot, Reader& reader);
   Outcome switch_advisory(std::uint32_t slot, Reader& reader);
   void tell_object_relevance();
+
+  // Objects beyond updates (federation_objects.cpp).
+  Outcome take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader);
+  Outcome take_names(std::uint32_t slot, Reader& reader);
+  void answer_names(std::uint32_t slot, NameAnswer answer, Bytes names);
+  bool take_name(std::uint32_t slot, std::string_view name);
+  void leave_names(std::uint32_t slot);
+  Outcome delete_locally(std::uint32_t slot, Reader& reader);
+  Outcome request_update(std::uint32_t slot, Reader& reader);
+  void ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag);
+  Outcome change_transportation(std::uint32_t slot, Reader& reader);
+  Outcome query_transportation(std::uint32_t slot, Reader& reader);
+  AttributeSet by_datagram(ObjectSlot object) const;
+  /// Names of objects that are reserved or in use, and by which federate they are reserved.
+  std::unordered_map<std::string, FederateHandle> instance_names_;
+  ObjectMap<AttributeSet> changed_transportation_;  ///< of objects whose attributes travel otherwise than the model says: those by best effort
 
   // Regions (federation_regions.cpp).
   Outcome take_region(std::uint32_t slot, MessageKind kind, Reader& reader);

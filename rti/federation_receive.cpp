@@ -81,6 +81,11 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::updates:
     case MessageKind::spare_update:
     case MessageKind::interaction: return take_object(slot, kind, reader);
+    case MessageKind::instance_names:
+    case MessageKind::local_delete:
+    case MessageKind::request_update:
+    case MessageKind::change_transportation:
+    case MessageKind::query_transportation: return take_object_request(slot, kind, reader);
     case MessageKind::acknowledge_keyframe:
     case MessageKind::refuse_keyframe: return take_keyframe(slot, kind, reader);
     case MessageKind::enable_time_regulation:
@@ -116,7 +121,8 @@ Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& 
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != federate.block * object_block + federate.objects_registered) return Violation::unknown_name;
   ++federate.objects_registered;
-  interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, message.name));
+  const bool has_name = message.name.empty() || take_name(slot, message.name);
+  interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, has_name ? message.name : std::string_view()));
   return std::nullopt;
 }
 
@@ -147,6 +153,8 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
     say(federates_[i].tail, removal);
     counters_.scope_bytes_sent += measure(removal);
   }
+  if (!objects_[object].name.empty()) instance_names_.erase(objects_[object].name);
+  if (changed_transportation_.size() > 0) changed_transportation_.erase(objects_[object].handle);
   objects_.erase(object);
 }
 

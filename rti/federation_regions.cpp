@@ -150,16 +150,7 @@ void FederationExecution::Parts::request_update(std::uint32_t slot, ObjectClassH
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
     const Object& asked = objects_[object];
     if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class)) continue;
-    const AttributeSet due = interest_.overlapping(slot, region, object, attributes);
-    const auto ask = [&](std::uint32_t owner) {
-      const AttributeSet owned = owner == slot ? AttributeSet() : due & ownership_.owned_by(owner, object);
-      if (!owned.is_empty()) say(federates_[owner].tail, ProvideUpdateMessage{asked.handle.value, owned.bits});
-    };
-    if (due.is_empty()) continue;
-    if (asked.owner != no_federate) ask(asked.owner);
-    else
-      for (std::uint32_t owner = 0; owner < federates_.size(); ++owner)
-        if (federates_[owner].is_joined) ask(owner);
+    ask_owners(slot, object, interest_.overlapping(slot, region, object, attributes), {});
   }
 }
 

@@ -72,6 +72,7 @@ const char* to_string(HlaError error) {
     case HlaError::attribute_scope_advisory_switch_is_off: return "AttributeScopeAdvisorySwitchIsOff";
     case HlaError::interaction_relevance_advisory_switch_is_on: return "InteractionRelevanceAdvisorySwitchIsOn";
     case HlaError::interaction_relevance_advisory_switch_is_off: return "InteractionRelevanceAdvisorySwitchIsOff";
+    case HlaError::name_set_was_empty: return "NameSetWasEmpty";
   }
   return "unknown error";
 }

@@ -77,6 +77,7 @@ enum class HlaError : std::uint8_t {
   attribute_scope_advisory_switch_is_off,
   interaction_relevance_advisory_switch_is_on,
   interaction_relevance_advisory_switch_is_off,
+  name_set_was_empty,
 };
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);

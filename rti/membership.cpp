@@ -17,6 +17,19 @@ const char* to_string(Refusal refusal) {
   return "unknown refusal";
 }
 
+HlaError error_of(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::wrong_fom: return HlaError::inconsistent_fdd;
+    case Refusal::wrong_federation: return HlaError::federation_execution_does_not_exist;
+    case Refusal::name_taken: return HlaError::federate_name_already_in_use;
+    case Refusal::bad_name: return HlaError::illegal_name;
+    case Refusal::not_admitted: return HlaError::unauthorized;
+    case Refusal::wrong_version:
+    case Refusal::federation_full: break;
+  }
+  return HlaError::rti_internal_error;
+}
+
 const char* to_string(SynchronizationFailure failure) {
   switch (failure) {
     case SynchronizationFailure::label_not_unique: return "label not unique";

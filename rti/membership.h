@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "rti/hla_error.h"
+
 namespace rink::rti {
 
 /// Why a join failed; the numbers are those on the wire.
@@ -18,6 +20,9 @@ enum class Refusal : std::uint8_t {
 };
 /// A sentence that tells a user what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);
+/// The standard's name for it (4.9), to switch on: InconsistentFDD, FederationExecutionDoesNotExist, FederateNameAlreadyInUse, IllegalName, Unauthorized; RTIinternalError for what the
+/// standard does not know: another version, a federation that is full.
+HlaError error_of(Refusal refusal);
 
 /// Why a synchronisation point was not registered; the numbers are those on the wire.
 enum class SynchronizationFailure : std::uint8_t {

@@ -37,6 +37,10 @@ class ArgumentWriter {
     put(executions.size());
     for (const FederationExecutionInformation& each : executions) put_all(each.federation, each.model, each.federates);
   }
+  void put(const std::vector<std::string>& texts) {
+    put(texts.size());
+    for (const std::string& each : texts) put(each);
+  }
   void put(const std::vector<FederationReport>& reports) {
     put(reports.size());
     for (const FederationReport& report : reports) {
@@ -90,6 +94,11 @@ class ArgumentReader {
     std::vector<FederationExecutionInformation> executions(take<std::size_t>());
     for (FederationExecutionInformation& each : executions) take_all(each.federation, each.model, each.federates);
     return executions;
+  }
+  std::vector<std::string> take(std::type_identity<std::vector<std::string>>*) {
+    std::vector<std::string> texts(take<std::size_t>());
+    for (std::string& each : texts) each = take<std::string>();
+    return texts;
   }
   std::vector<FederationReport> take(std::type_identity<std::vector<FederationReport>>*) {
     std::vector<FederationReport> reports(take<std::size_t>());

@@ -74,7 +74,29 @@ class CallbackQueue final : public FederateAmbassador {
   }
   void attributes_in_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_in_scope>(object); }
   void attributes_out_of_scope(ObjectHandle object) override { put<&FederateAmbassador::attributes_out_of_scope>(object); }
-  void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes) override { put<&FederateAmbassador::provide_attribute_value_update>(object, attributes); }
+  void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag) override {
+    put<&FederateAmbassador::provide_attribute_value_update>(object, attributes, tag);
+  }
+  void object_instance_name_reservation_succeeded(std::string_view name) override { put<&FederateAmbassador::object_instance_name_reservation_succeeded>(name); }
+  void object_instance_name_reservation_failed(std::string_view name) override { put<&FederateAmbassador::object_instance_name_reservation_failed>(name); }
+  void multiple_object_instance_name_reservation_succeeded(const std::vector<std::string>& names) override {
+    put<&FederateAmbassador::multiple_object_instance_name_reservation_succeeded>(names);
+  }
+  void multiple_object_instance_name_reservation_failed(const std::vector<std::string>& names) override {
+    put<&FederateAmbassador::multiple_object_instance_name_reservation_failed>(names);
+  }
+  void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes, Transportation type) override {
+    put<&FederateAmbassador::confirm_attribute_transportation_type_change>(object, attributes, type);
+  }
+  void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute, Transportation type) override {
+    put<&FederateAmbassador::report_attribute_transportation_type>(object, attribute, type);
+  }
+  void confirm_interaction_transportation_type_change(InteractionClassHandle interaction_class, Transportation type) override {
+    put<&FederateAmbassador::confirm_interaction_transportation_type_change>(interaction_class, type);
+  }
+  void report_interaction_transportation_type(FederateHandle federate, InteractionClassHandle interaction_class, Transportation type) override {
+    put<&FederateAmbassador::report_interaction_transportation_type>(federate, interaction_class, type);
+  }
   void remove_object_instance(ObjectHandle object) override { put<&FederateAmbassador::remove_object_instance>(object); }
   void receive_interaction(InteractionClassHandle interaction_class, Bytes parameters, FederateHandle sender, const Stamp& stamp) override {
     put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);

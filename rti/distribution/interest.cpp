@@ -209,15 +209,8 @@ void Interest::owner_changed(ObjectSlot slot) {
   touch(slot);
 }
 
-AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
-  const DeclaredInterest& interest = *federates_[federate];
-  const AttributeSet told = interest.told(slot, objects_[slot].object_class);
-  const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
-  const bool has_passive = !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
-  return told.is_empty() || !has_passive ? told : told & wanted(interest, slot, true);
-}
-
-AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot, bool is_active_only) {
+template <bool is_active_only>
+AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot) {
   const Object& object = objects_[slot];
   if (!object.is_alive || object.is_leaving || object.owner == interest.federate) return {};
   AttributeSet set = is_active_only ? active(interest.everywhere, object.object_class) : interest.everywhere.expanded[object.object_class];
@@ -232,6 +225,14 @@ AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot,
     if (is_heard) set = set | named;
   }
   return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot) : set;
+}
+
+AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
+  const DeclaredInterest& interest = *federates_[federate];
+  const AttributeSet told = interest.told(slot, objects_[slot].object_class);
+  const auto is_passive = [](const Regional& each) { return !each.classes.passive.empty(); };
+  const bool has_passive = !interest.everywhere.passive.empty() || std::ranges::any_of(interest.regionals, is_passive);
+  return told.is_empty() || !has_passive ? told : told & wanted<true>(interest, slot);
 }
 
 void Interest::match() {

@@ -133,7 +133,8 @@ class Interest : public DataDistribution {
   void expand(ClassInterest& interest) const;
   bool overlaps(const Regional& regional, RegionSlot update);
   AttributeSet covered(const Regional& regional, ObjectSlot object, AttributeSet attributes);
-  AttributeSet wanted(const DeclaredInterest& interest, ObjectSlot slot, bool is_active_only = false);
+  template <bool is_active_only = false>
+  AttributeSet wanted(const DeclaredInterest& interest, ObjectSlot slot);
   AttributeSet active(const ClassInterest& interest, std::uint16_t object_class) const;
   void touch(ObjectSlot slot) {
     if (watches_scope_) touched_.push_back(slot);

@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "rti/advisory_switches.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/objects/spared_values.h"
 
 namespace rink::rti {
-
-/// The advisories of IEEE 1516.1-2010 that a federate may switch (10.27 to 10.34).
-enum class Advisory : std::uint8_t { object_class_relevance, attribute_relevance, attribute_scope, interaction_relevance };
 
 struct DeclaredState {
   /// Of one class that is published.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "rti/federate_ambassador.h"
 #include "rti/handles.h"
 
 namespace rink::rti {
@@ -17,6 +18,23 @@ struct KnownObject {
 struct GoneObject {
   ObjectHandle object;
   bool is_settled = false;  ///< the RTI has heard so, too
+};
+
+/// A deletion in time-stamp order, which may be taken back.
+struct TimedDeletion {
+  std::uint64_t number = 0;
+  std::uint32_t object = 0;
+  KnownObject known;
+  double time = 0.0;
+};
+
+/// A block of updates that may take more.
+struct OpenUpdates {
+  bool is_open = false;
+  ObjectClassHandle object_class;
+  AttributeSet attributes;
+  Stamp stamp;
+  std::uint32_t last_object = 0;
 };
 
 }  // namespace rink::rti

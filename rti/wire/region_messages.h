@@ -99,10 +99,11 @@ struct ProvideUpdateMessage {
   static constexpr MessageKind kind = MessageKind::provide_update;
   std::uint32_t object = 0;
   std::uint32_t attributes = 0;
+  Bytes tag;
 };
 template <class Stream>
 bool exchange(Stream& stream, ProvideUpdateMessage& message) {
-  return stream.varint(message.object) && stream.varint(message.attributes);
+  return stream.varint(message.object) && stream.varint(message.attributes) && stream.template bytes<std::uint16_t>(message.tag, 1024);
 }
 
 /// An interaction for those who subscribe without a region, or with one that overlaps one of `regions` (u32 each).

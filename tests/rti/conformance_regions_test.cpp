@@ -213,7 +213,7 @@ TEST(Conformance, AnInteractionSentWithoutRegionsOverlapsEverySubscription) {
 TEST(Conformance, OwnersAreAskedForTheAttributesThatOverlapTheRegionOfARequest) {
   struct Provider : Recorder {
     std::vector<std::pair<ObjectHandle, AttributeSet>> asked;
-    void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes) override { asked.emplace_back(object, attributes); }
+    void provide_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes) override { asked.emplace_back(object, attributes); }
   };
   struct Owner {
     Provider heard;

@@ -5,9 +5,11 @@
 #include <array>
 #include <random>
 
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/object_messages.h"
 #include "rti/wire/region_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
@@ -96,8 +98,30 @@ TEST(Message, OfRegionsReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(RegionalInteractionMessage{object_class, static_cast<std::uint8_t>(count % 2), count, regions});
     expect_round_trip(AssociateRegionsMessage{dice.number<std::uint32_t>(), static_cast<std::uint8_t>(count % 2), count, records});
     expect_round_trip(InteractionWithinMessage{object_class, dice.stamp(), count, regions, dice.some(100)});
-    expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(), dice.number<std::uint32_t>()});
+    expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(), dice.number<std::uint32_t>(), dice.some(count)});
     expect_round_trip(FomDigestMessage{count, records});
+  }
+}
+
+TEST(Message, OfDeclarationsAndObjectsReadsBackAsItWasWrittenAndNeverFromLess) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Dice dice{std::mt19937_64(seed), {}, {}};
+    const auto word = static_cast<std::uint8_t>(dice.number<std::uint32_t>() % 2);
+    const auto number = dice.number<std::uint32_t>();
+    const auto bits = dice.number<std::uint32_t>();
+    const auto object_class = dice.number<std::uint16_t>();
+    expect_round_trip(ClassRelevanceMessage{word, object_class, bits, number});
+    expect_round_trip(ObjectRelevanceMessage{number, bits});
+    expect_round_trip(SpareUpdateMessage{number, bits});
+    expect_round_trip(AdvisorySwitchMessage{word});
+    expect_round_trip(InstanceNamesMessage{word, dice.some(number % 300)});
+    expect_round_trip(InstanceNamesAnswerMessage{word, dice.some(number % 300)});
+    expect_round_trip(LocalDeleteMessage{number});
+    expect_round_trip(RequestUpdateMessage{word, number, bits, dice.some(number % 300)});
+    expect_round_trip(ChangeTransportationMessage{word, number, bits, word});
+    expect_round_trip(QueryTransportationMessage{word, number, bits});
+    expect_round_trip(TransportationMessage{word, word, number, bits, word});
   }
 }
 

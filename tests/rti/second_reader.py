@@ -300,8 +300,19 @@ class Reader:
     def passive(self):
         return ("active", "passive")[self.u8()]
 
+    def bits(self):
+        return "{0:b}".format(self.varint())
+
+    def names(self):
+        inner = Reader(self.take(self.u16()), self.model)
+        names = []
+        while not inner.is_at_end():
+            names.append(inner.text())
+        assert names and "-" not in names, "a set of names that is empty, or an empty name"
+        return ",".join(names)
+
     def object_attributes(self, verb):
-        return ["%s %d %s" % (verb, self.varint(), "{0:b}".format(self.varint()))]
+        return ["%s %d %s" % (verb, self.varint(), self.bits())]
 
     def class_relevance(self):
         if self.u8() == 1:
@@ -338,7 +349,12 @@ UP = {
     20: lambda r: ["create_execution %s %016x" % (r.text(), r.u64())],
     21: lambda r: ["destroy_execution " + r.text()],
     22: lambda r: ["list_executions"],
+    39: lambda r: ["request_update %s %d %s %s" % (("object", "class")[r.u8()], r.varint(), r.bits(), r.short_bytes())],
+    40: lambda r: ["change_transportation %s %d %s %d" % (("object", "interaction")[r.u8()], r.varint(), r.bits(), r.u8())],
+    41: lambda r: ["query_transportation %s %d %d" % (("object", "interaction")[r.u8()], r.varint(), r.varint())],
+    46: lambda r: ["names %s %s" % (("reserve", "reserve_set", "release")[r.u8()], r.names())],
     47: lambda r: r.object_attributes("spare"),
+    48: lambda r: ["local_delete %d" % r.varint()],
     49: lambda r: ["attribute_relevance_advisory %d" % r.u8()],
     23: lambda r: ["query_management"],
     28: lambda r: ["enable_time_regulation " + r.f64()],
@@ -382,6 +398,7 @@ DOWN = {
     75: lambda r: ["execution_created %s %d" % (r.text(), r.u8())],
     76: lambda r: ["execution_destroyed %s %d" % (r.text(), r.u8())],
     77: Reader.execution,
+    104: lambda r: ["names %s %s" % (("granted", "set_granted", "refused", "set_refused", "registration_refused")[r.u8()], r.names())],
     105: Reader.class_relevance,
     106: lambda r: r.object_attributes("object_relevance"),
     78: Reader.report,
@@ -396,7 +413,8 @@ DOWN = {
     92: lambda r: r.ownership(OWNERSHIP_NOTICES),
     93: lambda r: ["owner %d %d %s" % (r.varint(), r.u8(), r.one_or_none())],
     112: lambda r: ["digest " + " ".join("%08x:%08x" % (r.u32(), r.u32()) for _ in range(r.u16()))],
-    113: lambda r: ["provide %d %x" % (r.varint(), r.varint())],
+    107: lambda r: ["transportation %s %s %d %d %d" % (("object", "interaction")[r.u8()], ("answer", "confirmation")[r.u8()], r.varint(), r.varint(), r.u8())],
+    113: lambda r: ["provide %d %s %s" % (r.varint(), r.bits(), r.short_bytes())],
 }
 
 
