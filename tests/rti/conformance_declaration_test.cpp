@@ -4,24 +4,13 @@
 
 #include <random>
 
-#include "tests/rti/rig.h"
+#include "tests/rti/company.h"
 
 namespace rink::rti::testing {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const AttributeSet motion{position, speed};
-
-HlaError error_of(const auto& service) {
-  try {
-    service();
-  } catch (const RtiException& exception) {
-    return exception.error();
-  }
-  return HlaError::none;
-}
 
 /// Writes down its advisories alone.
 struct Advised : Recorder {
@@ -41,63 +30,22 @@ struct Advised : Recorder {
   }
 };
 
-/// A pilot who publishes, and others.
-struct Harbour : private Outlet {
-  struct Member {
-    Advised heard;
-    Ambassador ambassador{harbour(), heard};
-  };
-  FederationExecution execution{harbour(), settings()};
-  std::deque<Member> members;
-  Ambassador &pilot = join("pilot"), &coast = join("coast");
-  Advised& advised = members.front().heard;
-
-  static FederationSettings settings() {
-    FederationSettings settings;
-    settings.filter = "region";
-    return settings;
-  }
-  Ambassador& join(const std::string& name) {
-    Member& member = members.emplace_back();
-    execution.connect(static_cast<ConnectionId>(members.size() - 1));
-    member.ambassador.join("rink", name, "tester");
-    settle();
-    return member.ambassador;
-  }
-  void settle() {
-    for (int round = 0; round < 3; ++round) {
-      for (ConnectionId id = 0; id < members.size(); ++id) {
-        execution.receive(id, members[id].ambassador.outgoing());
-        members[id].ambassador.clear_outgoing();
-      }
-      execution.match();
-      execution.flush(*this);
-    }
-  }
-  std::vector<std::string> told() {
-    settle();
-    return std::exchange(advised.told, {});
-  }
-  void send(ConnectionId id, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) EXPECT_TRUE(members[id].ambassador.receive(part));
-  }
-  void drop(ConnectionId, std::string_view) override {}
-};
+using Harbour = Company<Advised>;
 
 // 5.10, 5.11
 TEST(Conformance, RegistrationIsAdvisedWhileAnAttributeThatIsPublishedIsActivelySubscribedByAnother) {
   Harbour here;
   here.pilot.publish_object_class_attributes(vessel, AttributeSet{position});
   here.pilot.subscribe_object_class_attributes(vessel, motion);
-  EXPECT_THAT(here.told(), IsEmpty()) << "its own subscription is none of another";
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty()) << "its own subscription is none of another";
   here.coast.subscribe_object_class_attributes(vessel, AttributeSet{speed});
-  EXPECT_THAT(here.told(), IsEmpty()) << "not what it publishes";
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty()) << "not what it publishes";
   here.coast.subscribe_object_class_attributes(vessel, motion);
-  EXPECT_THAT(here.told(), ElementsAre("start Vessel"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel"));
   here.coast.subscribe_object_class_attributes(vessel, AttributeSet{position});
-  EXPECT_THAT(here.told(), IsEmpty()) << "told once";
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty()) << "told once";
   here.coast.unsubscribe_object_class(vessel);
-  EXPECT_THAT(here.told(), ElementsAre("stop Vessel"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("stop Vessel"));
 }
 
 // 5.10
@@ -106,9 +54,9 @@ TEST(Conformance, ASubscriptionToASuperclassCountsForItsSubclasses) {
   here.coast.subscribe_object_class_attributes(vessel, motion);
   here.settle();
   here.pilot.publish_object_class_attributes(ferry, AttributeSet{speed});
-  EXPECT_THAT(here.told(), ElementsAre("start Ferry"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Ferry"));
   here.pilot.publish_object_class_attributes(ferry, AttributeSet{destination});
-  EXPECT_THAT(here.told(), ElementsAre("stop Ferry")) << "which the superclass has not";
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("stop Ferry")) << "which the superclass has not";
 }
 
 // 5.10, 5.12
@@ -121,11 +69,11 @@ TEST(Conformance, AFederateThatLeavesOrIsLostListensNoLonger) {
     each->subscribe_object_class_attributes(vessel, motion);
     each->subscribe_interaction_class(hail);
   }
-  EXPECT_THAT(here.told(), ElementsAre("start Vessel", "on Mayday"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel", "on Mayday"));
   here.coast.resign();
-  EXPECT_THAT(here.told(), IsEmpty());
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty());
   here.execution.disconnect(2, "died");
-  EXPECT_THAT(here.told(), ElementsAre("stop Vessel", "off Mayday"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("stop Vessel", "off Mayday"));
 }
 
 // 5.12, 5.13
@@ -133,15 +81,15 @@ TEST(Conformance, InteractionsAreTurnedOnWhileTheClassOrASuperclassIsActivelySub
   Harbour here;
   here.pilot.publish_interaction_class(hail);
   here.pilot.publish_interaction_class(mayday);
-  EXPECT_THAT(here.told(), IsEmpty());
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty());
   here.coast.subscribe_interaction_class(mayday);
-  EXPECT_THAT(here.told(), ElementsAre("on Mayday"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("on Mayday"));
   here.coast.subscribe_interaction_class(hail);
-  EXPECT_THAT(here.told(), ElementsAre("on Hail"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("on Hail"));
   here.coast.unsubscribe_interaction_class(mayday);
-  EXPECT_THAT(here.told(), IsEmpty()) << "still by its superclass";
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty()) << "still by its superclass";
   here.coast.unsubscribe_interaction_class(hail);
-  EXPECT_THAT(here.told(), ElementsAre("off Hail", "off Mayday"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("off Hail", "off Mayday"));
 }
 
 // 5.6, 5.8, 9.8, 9.10
@@ -155,7 +103,7 @@ TEST(Conformance, APassiveSubscriptionHearsAllAndAdvisesNobody) {
   here.coast.subscribe_object_class_attributes(vessel, motion, {}, false);
   here.coast.subscribe_object_class_attributes(vessel, motion, region, false);
   here.coast.subscribe_interaction_class(hail, false);
-  EXPECT_THAT(here.told(), IsEmpty());
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty());
   const ObjectHandle object = here.pilot.register_object_instance(vessel);
   here.pilot.update_attribute_values(object, AttributeSet{speed}, values_of(7.0f), {});
   here.pilot.send_interaction(hail, bytes_of("ahoy"), {});
@@ -164,10 +112,10 @@ TEST(Conformance, APassiveSubscriptionHearsAllAndAdvisesNobody) {
   EXPECT_EQ(here.members[1].heard.interactions.size(), 1u);
   here.coast.subscribe_object_class_attributes(vessel, AttributeSet{speed}, region);
   here.coast.subscribe_interaction_class(hail);
-  EXPECT_THAT(here.told(), ElementsAre("start Vessel", "on Hail")) << "one active subscription is enough";
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel", "on Hail")) << "one active subscription is enough";
   here.coast.subscribe_interaction_class(hail, false);
   here.coast.unsubscribe_object_class(vessel, region);
-  EXPECT_THAT(here.told(), ElementsAre("off Hail", "stop Vessel"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("off Hail", "stop Vessel"));
 }
 
 // 10.27, 10.28, 10.33, 10.34
@@ -179,23 +127,23 @@ TEST(Conformance, WhileASwitchIsOffItsAdvisoriesAreNotTold) {
   here.pilot.disable_interaction_relevance_advisory_switch();
   here.coast.subscribe_object_class_attributes(vessel, motion);
   here.coast.subscribe_interaction_class(hail);
-  EXPECT_THAT(here.told(), IsEmpty());
+  EXPECT_THAT(here.told(here.pilot_heard), IsEmpty());
   here.pilot.enable_object_class_relevance_advisory_switch();
   here.pilot.enable_interaction_relevance_advisory_switch();
-  EXPECT_THAT(here.told(), ElementsAre("start Vessel", "on Hail"));
+  EXPECT_THAT(here.told(here.pilot_heard), ElementsAre("start Vessel", "on Hail"));
 }
 
 // 10.27 to 10.34
 TEST(Conformance, ASwitchThatIsSoAlreadyIsRefusedByItsName) {
   Harbour here;
-  EXPECT_EQ(error_of([&] { here.pilot.enable_object_class_relevance_advisory_switch(); }), HlaError::object_class_relevance_advisory_switch_is_on);
-  EXPECT_EQ(error_of([&] { here.pilot.disable_attribute_relevance_advisory_switch(); }), HlaError::attribute_relevance_advisory_switch_is_off);
-  EXPECT_EQ(error_of([&] { here.pilot.enable_attribute_scope_advisory_switch(); }), HlaError::attribute_scope_advisory_switch_is_on);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_object_class_relevance_advisory_switch(); }), HlaError::object_class_relevance_advisory_switch_is_on);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_attribute_relevance_advisory_switch(); }), HlaError::attribute_relevance_advisory_switch_is_off);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_attribute_scope_advisory_switch(); }), HlaError::attribute_scope_advisory_switch_is_on);
   here.pilot.disable_interaction_relevance_advisory_switch();
-  EXPECT_EQ(error_of([&] { here.pilot.disable_interaction_relevance_advisory_switch(); }), HlaError::interaction_relevance_advisory_switch_is_off);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_interaction_relevance_advisory_switch(); }), HlaError::interaction_relevance_advisory_switch_is_off);
   Recorder nobody;
   Ambassador stranger(harbour(), nobody);
-  EXPECT_EQ(error_of([&] { stranger.disable_attribute_scope_advisory_switch(); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { stranger.disable_attribute_scope_advisory_switch(); }), HlaError::federate_not_execution_member);
 }
 
 // 10.31, 10.32
@@ -217,11 +165,11 @@ TEST(Conformance, ClassesAndAttributesThatAreNoneAreRefusedByTheirNames) {
   Harbour here;
   const ObjectClassHandle nothing{99};
   const InteractionClassHandle silence{99};
-  EXPECT_EQ(error_of([&] { here.pilot.subscribe_object_class_attributes(nothing, motion); }), HlaError::object_class_not_defined);
-  EXPECT_EQ(error_of([&] { here.pilot.subscribe_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_of([&] { here.pilot.publish_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_of([&] { here.pilot.publish_interaction_class(silence); }), HlaError::interaction_class_not_defined);
-  EXPECT_EQ(error_of([&] { here.pilot.subscribe_interaction_class(silence); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(nothing, motion); }), HlaError::object_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.publish_object_class_attributes(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.publish_interaction_class(silence); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_interaction_class(silence); }), HlaError::interaction_class_not_defined);
 }
 
 // 6.21, 6.22, 10.29, 10.30
@@ -270,7 +218,7 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
         default:
           if (objects.empty()) break;
           here.pilot.delete_object_instance(objects.front().first);
-          here.advised.updates_on.erase(objects.front().first.value);
+          here.pilot_heard.updates_on.erase(objects.front().first.value);
           objects.erase(objects.begin());
       }
       here.settle();
@@ -281,7 +229,7 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
             const bool overlaps = at == 2 || k == 2 || std::abs(places[0][at] - places[i][k]) <= 3.0;
             if (wishes[i][k].is_active && overlaps) due = due | wishes[i][k].set;
           }
-        ASSERT_EQ(here.advised.updates_on[object.value], due) << "object " << object.value << ", step " << step;
+        ASSERT_EQ(here.pilot_heard.updates_on[object.value], due) << "object " << object.value << ", step " << step;
       }
     }
   }

@@ -5,24 +5,13 @@
 #include <array>
 #include <initializer_list>
 
-#include "tests/rti/rig.h"
+#include "tests/rti/company.h"
 
 namespace rink::rti::testing {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-const AttributeSet motion{position, speed};
-
-HlaError error_of(const auto& service) {
-  try {
-    service();
-  } catch (const RtiException& exception) {
-    return exception.error();
-  }
-  return HlaError::none;
-}
 
 std::string joined_by_commas(const std::vector<std::string>& names) {
   std::string text;
@@ -54,48 +43,11 @@ struct Registrar : Recorder {
   }
 };
 
-struct Port : private Outlet {
-  struct Member {
-    Registrar heard;
-    Ambassador ambassador{harbour(), heard};
-  };
-  FederationExecution execution{harbour(), settings()};
-  std::deque<Member> members;
-  std::size_t dropped = 0;
-  Ambassador &pilot = join("pilot"), &coast = join("coast");
-  Registrar &pilot_heard = members[0].heard, &coast_heard = members[1].heard;
-
-  static FederationSettings settings() {
-    FederationSettings settings;
-    settings.filter = "region";
-    return settings;
+/// Both publish vessels.
+struct Port : Company<Registrar> {
+  Port() {
+    for (Ambassador* each : {&pilot, &coast}) each->publish_object_class_attributes(vessel, motion);
   }
-  Ambassador& join(const std::string& name) {
-    Member& member = members.emplace_back();
-    execution.connect(static_cast<ConnectionId>(members.size() - 1));
-    member.ambassador.join("rink", name, "tester");
-    settle();
-    member.ambassador.publish_object_class_attributes(vessel, motion);
-    return member.ambassador;
-  }
-  void settle() {
-    for (int round = 0; round < 3; ++round) {
-      for (ConnectionId id = 0; id < members.size(); ++id) {
-        execution.receive(id, members[id].ambassador.outgoing());
-        members[id].ambassador.clear_outgoing();
-      }
-      execution.match();
-      execution.flush(*this);
-    }
-  }
-  std::vector<std::string> told(Registrar& heard) {
-    settle();
-    return std::exchange(heard.told, {});
-  }
-  void send(ConnectionId id, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) EXPECT_TRUE(members[id].ambassador.receive(part));
-  }
-  void drop(ConnectionId, std::string_view) override { ++dropped; }
 };
 
 // 6.2, 6.3
@@ -105,7 +57,7 @@ TEST(Conformance, ANameIsReservedByOneFederateUntilItIsReleased) {
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("got Fram"));
   port.coast.reserve_object_instance_name("Fram");
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Fram"));
-  EXPECT_EQ(error_of([&] { port.coast.release_object_instance_name("Fram"); }), HlaError::object_instance_name_not_reserved);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.release_object_instance_name("Fram"); }), HlaError::object_instance_name_not_reserved);
   port.pilot.release_object_instance_name("Fram");
   port.settle();
   port.coast.reserve_object_instance_name("Fram");
@@ -116,10 +68,10 @@ TEST(Conformance, ANameIsReservedByOneFederateUntilItIsReleased) {
 // 6.2
 TEST(Conformance, ANameThatBeginsWithHlaOrIsEmptyIsIllegal) {
   Port port;
-  EXPECT_EQ(error_of([&] { port.pilot.reserve_object_instance_name("HLAobject 3"); }), HlaError::illegal_name);
-  EXPECT_EQ(error_of([&] { port.pilot.reserve_object_instance_name(""); }), HlaError::illegal_name);
-  EXPECT_EQ(error_of([&] { port.pilot.register_object_instance(vessel, "HLAfram"); }), HlaError::illegal_name);
-  EXPECT_EQ(error_of([&] { port.pilot.reserve_multiple_object_instance_names({}); }), HlaError::name_set_was_empty);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name("HLAobject 3"); }), HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_object_instance_name(""); }), HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "HLAfram"); }), HlaError::illegal_name);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.reserve_multiple_object_instance_names({}); }), HlaError::name_set_was_empty);
 }
 
 // 6.5, 6.6, 6.7
@@ -134,7 +86,7 @@ TEST(Conformance, ASetOfNamesIsReservedWholeOrNotAtAll) {
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("got Gjoa"));
   port.coast.reserve_multiple_object_instance_names(twice);
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not all Tern,Tern"));
-  EXPECT_EQ(error_of([&] { port.pilot.release_multiple_object_instance_names(overlapping); }), HlaError::object_instance_name_not_reserved);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.release_multiple_object_instance_names(overlapping); }), HlaError::object_instance_name_not_reserved);
   port.pilot.release_multiple_object_instance_names(pair);
   port.settle();
   port.coast.reserve_multiple_object_instance_names(pair);
@@ -155,9 +107,9 @@ TEST(Conformance, AnObjectIsFoundByItsNameAndEveryObjectHasAUniqueOne) {
     EXPECT_NE(each->get_object_instance_name(other), each->get_object_instance_name(third));
     EXPECT_EQ(each->get_object_instance_handle(each->get_object_instance_name(other)), other);
     EXPECT_EQ(each->get_known_object_class_handle(fram), vessel);
-    EXPECT_EQ(error_of([&] { each->get_object_instance_handle("Maud"); }), HlaError::object_instance_not_known);
-    EXPECT_EQ(error_of([&] { each->get_object_instance_handle("HLAobject 0" + std::to_string(other.value)); }), HlaError::object_instance_not_known);
-    EXPECT_EQ(error_of([&] { each->get_object_instance_name({12345}); }), HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_handle("Maud"); }), HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_handle("HLAobject 0" + std::to_string(other.value)); }), HlaError::object_instance_not_known);
+    EXPECT_EQ(error_thrown_by([&] { each->get_object_instance_name({12345}); }), HlaError::object_instance_not_known);
   }
   EXPECT_EQ(port.pilot.get_object_instance_name(other), port.coast.get_object_instance_name(other));
   EXPECT_EQ(port.coast_heard.objects.at(other.value).name, port.coast.get_object_instance_name(other));
@@ -170,13 +122,13 @@ TEST(Conformance, NoTwoObjectsHaveOneName) {
   port.pilot.subscribe_object_class_attributes(vessel, motion);
   port.settle();
   const ObjectHandle first = port.pilot.register_object_instance(vessel, "Fram");
-  EXPECT_EQ(error_of([&] { port.pilot.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
   const ObjectHandle second = port.coast.register_object_instance(vessel, "Fram");  // it can't know yet
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("not Fram"));
   EXPECT_EQ(port.coast.get_object_instance_handle("Fram"), first);
   EXPECT_NE(port.pilot.get_object_instance_name(second), "Fram");
   EXPECT_EQ(port.pilot.get_object_instance_name(second), port.coast.get_object_instance_name(second));
-  EXPECT_EQ(error_of([&] { port.coast.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.register_object_instance(vessel, "Fram"); }), HlaError::object_instance_name_in_use);
   port.pilot.reserve_object_instance_name("Maud");
   port.settle();
   port.coast.register_object_instance(vessel, "Maud");
@@ -221,17 +173,17 @@ TEST(Conformance, AnObjectThatWasDeletedLocallyIsUnknownHereAndMayBeDiscoveredAg
   port.pilot.associate_regions_for_updates(fram, place);
   port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(1.0f), {});
   port.settle();
-  EXPECT_EQ(error_of([&] { port.pilot.local_delete_object_instance(fram); }), HlaError::federate_owns_attributes);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.local_delete_object_instance(fram); }), HlaError::federate_owns_attributes);
   port.pilot.unconditional_attribute_ownership_divestiture(fram, AttributeSet{position});
   port.settle();
   port.coast.attribute_ownership_acquisition(fram, AttributeSet{speed});
-  EXPECT_EQ(error_of([&] { port.coast.local_delete_object_instance(fram); }), HlaError::ownership_acquisition_pending);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }), HlaError::ownership_acquisition_pending);
   port.coast.cancel_attribute_ownership_acquisition(fram, AttributeSet{speed});
   port.settle();
   port.coast.local_delete_object_instance(fram);
   port.coast_heard.objects.erase(fram.value);
-  EXPECT_EQ(error_of([&] { port.coast.get_object_instance_handle("Fram"); }), HlaError::object_instance_not_known);
-  EXPECT_EQ(error_of([&] { port.coast.local_delete_object_instance(fram); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.get_object_instance_handle("Fram"); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.local_delete_object_instance(fram); }), HlaError::object_instance_not_known);
   for (int i = 0; i < 3; ++i) {  // said while the RTI may not know yet
     port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(2.0f), {});
     port.settle();
@@ -289,8 +241,8 @@ TEST(Conformance, OwnersAreAskedForValuesByClassOrByObjectWithTheTagOfTheRequest
   port.coast.request_attribute_value_update(two, motion);
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("provide 3 of " + std::to_string(two.value) + " "));
   EXPECT_THAT(port.told(port.coast_heard), IsEmpty());
-  EXPECT_EQ(error_of([&] { port.coast.request_attribute_value_update(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_of([&] { port.coast.request_attribute_value_update(ObjectHandle{777}, motion); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_value_update(vessel, AttributeSet{destination}); }), HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_value_update(ObjectHandle{777}, motion); }), HlaError::object_instance_not_known);
 }
 
 // 6.23 to 6.26
@@ -306,7 +258,7 @@ TEST(Conformance, TheTransportationOfAttributesIsChangedByTheirOwnerConfirmedAnd
   port.coast.query_attribute_transportation_type(fram, speed);
   port.coast.query_attribute_transportation_type(fram, position);
   EXPECT_THAT(port.told(port.coast_heard), ElementsAre("attribute 1 HLAbestEffort", "attribute 0 HLAreliable"));
-  EXPECT_EQ(error_of([&] { port.coast.request_attribute_transportation_type_change(fram, AttributeSet{speed}, Transportation::reliable); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { port.coast.request_attribute_transportation_type_change(fram, AttributeSet{speed}, Transportation::reliable); }), HlaError::attribute_not_owned);
   port.pilot.update_attribute_values(fram, AttributeSet{speed}, values_of(3.0f), {});
   port.settle();
   EXPECT_EQ(port.coast_heard.objects.at(fram.value).values.at(speed.value), values_of(3.0f));
@@ -315,7 +267,7 @@ TEST(Conformance, TheTransportationOfAttributesIsChangedByTheirOwnerConfirmedAnd
 // 6.27 to 6.30
 TEST(Conformance, TheTransportationOfInteractionsIsTheSendersOwn) {
   Port port;
-  EXPECT_EQ(error_of([&] { port.pilot.request_interaction_transportation_type_change(hail, Transportation::best_effort); }), HlaError::interaction_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.request_interaction_transportation_type_change(hail, Transportation::best_effort); }), HlaError::interaction_class_not_published);
   port.pilot.publish_interaction_class(hail);
   port.pilot.request_interaction_transportation_type_change(hail, Transportation::best_effort);
   EXPECT_THAT(port.told(port.pilot_heard), ElementsAre("confirmed Hail HLAbestEffort"));
@@ -326,8 +278,8 @@ TEST(Conformance, TheTransportationOfInteractionsIsTheSendersOwn) {
 // 6.12
 TEST(Conformance, AnInteractionOfAClassThatIsNotPublishedIsRefusedBeforeItIsSent) {
   Port port;
-  EXPECT_EQ(error_of([&] { port.pilot.send_interaction(hail, bytes_of("ahoy"), Stamp{}); }), HlaError::interaction_class_not_published);
-  EXPECT_EQ(error_of([&] { port.pilot.send_interaction(InteractionClassHandle{99}, {}, Stamp{}); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.send_interaction(hail, bytes_of("ahoy"), Stamp{}); }), HlaError::interaction_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] { port.pilot.send_interaction(InteractionClassHandle{99}, {}, Stamp{}); }), HlaError::interaction_class_not_defined);
   port.settle();
   EXPECT_EQ(port.dropped, 0u);
 }
