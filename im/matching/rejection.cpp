@@ -22,6 +22,7 @@ const char* words(Fault fault) {
     case Fault::not_finite: return "is not finite: a coordinate is infinite or not a number";
     case Fault::unknown_id: return "is not known";
     case Fault::doubled_id: return "is there already";
+    case Fault::id_too_large: return "has an id that is too large";
     case Fault::no_area: return "has no area";
     case Fault::bad_cell_size: return "is not a positive finite number";
   }

@@ -9,7 +9,7 @@
 
 namespace rink::im {
 
-enum class Fault : std::uint8_t { inverted, not_finite, unknown_id, doubled_id, no_area, bad_cell_size };
+enum class Fault : std::uint8_t { inverted, not_finite, unknown_id, doubled_id, id_too_large, no_area, bad_cell_size };
 enum class Subject : std::uint8_t { update_region, subscription_region, world, cells };
 
 struct Rejection {
