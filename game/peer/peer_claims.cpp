@@ -87,7 +87,7 @@ void Peer::enter_event(Events event) {
   for (std::size_t k = event.begin; k < event.end; ++k) concerned += mixed(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
   for (std::size_t k = event.begin; k < event.end; ++k) {
     const physics::Change& c = changes[k];
-    if (c.is_looked_at || (roles_[c.body] == own && is_edge_[c.body] == 0)) continue;
+    if (roles_[c.body] == own && is_edge_[c.body] == 0) continue;
     const std::uint64_t state = mixed(mixed(mixed(mixed(mixed(mixed(concerned, c.conditions), c.x), c.y), c.vx), c.vy), c.since);
     steps_.push_back({c.body, static_cast<std::uint32_t>(k), state});
   }

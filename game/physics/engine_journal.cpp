@@ -54,17 +54,15 @@ std::uint64_t BasicEngine<Real>::conditions_of(std::uint32_t body) const {
 template <class Real>
 void BasicEngine<Real>::enter_changes() {
   BasicJournal<Real>& journal = *journal_;
-  for (const std::uint32_t body : touched_) {
+  const auto enter = [&](std::uint32_t body) {
     journal.enter(body, bodies_[body], conditions_of(body) ^ journal.stirred);
-    if ((bodies_[body].flags & curved) == 0) continue;
+    if ((bodies_[body].flags & curved) == 0) return;
     journal.changes.back().motion = static_cast<std::uint32_t>(journal.motions.size());
     journal.motions.push_back(motion(body));
-  }
-  for (const std::uint32_t body : journal.looked_at) {
-    if ((bodies_[body].flags & touched) != 0) continue;
-    journal.enter(body, bodies_[body], 0);
-    journal.changes.back().is_looked_at = true;
-  }
+  };
+  for (const std::uint32_t body : touched_) enter(body);
+  for (const std::uint32_t body : journal.looked_at)
+    if ((bodies_[body].flags & touched) == 0) enter(body);
   journal.looked_at.clear();
   journal.stirred = 0;
   ++journal.event;

@@ -312,8 +312,11 @@ void BasicEngine<Real>::apply_joint(Real time) {
   }
   for (std::size_t place = 0; place < joint_.size(); ++place) {
     if (joint_velocities_[place] == velocities_before_[place]) continue;
-    bodies_[joint_[place]].vx = joint_velocities_[place].x();
-    bodies_[joint_[place]].vy = joint_velocities_[place].y();
+    const std::uint32_t body = joint_[place];
+    keep(body);
+    bodies_[body].vx = joint_velocities_[place].x();
+    bodies_[body].vy = joint_velocities_[place].y();
+    touch(body);  // also of one that moves by a rounding without a push: what is predicted of it must follow from its state
   }
 }
 

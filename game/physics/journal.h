@@ -20,7 +20,6 @@ struct BasicChange {
   std::uint64_t conditions;  ///< a digest of all else that its future depends on
   std::uint32_t body, event;  ///< changes of one event have the same number, and stand side by side
   std::uint32_t motion;       ///< in BasicJournal::motions; `straight` if it flies freely
-  bool is_looked_at;
 };
 using Change = BasicChange<double>;
 
@@ -60,7 +59,7 @@ struct BasicJournal {
     flights.push_back({body, flight});
   }
   void enter(std::uint32_t body, const Flight<Real>& f, std::uint64_t conditions) {
-    changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight, false});
+    changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight});
   }
   /// The event that is about to be processed.
   void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {

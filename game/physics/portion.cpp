@@ -60,6 +60,7 @@ void Portion::write(std::uint32_t body, const BodyState& s) {
   Engine::Rhythm& rhythm = e.rhythms_[body];
   rhythm.window_start = s.impacts_begin, rhythm.last_hop = s.last_hop, rhythm.impacts = s.impacts, rhythm.hops = s.hops;
   rhythm.repeats = {s.repeats_instant, s.repeats};
+  rhythm.meetings = {};  // counted anew: they matter from thousands on, when the count of events at one instant has long had its say
   if (e.is_slowed()) e.rest_times_[body] = s.rest_time, e.slowing_[body] = s.slowing;
   if (e.is_rough()) e.spins_[body] = s.spin;
   e.jams_[body] = s.jam;
