@@ -1,0 +1,81 @@
+// The steps of peer.h in their order, message by message.
+#include "game/peer/protocol.h"
+
+namespace rink::peer {
+
+namespace {
+
+/// What `make(to)` makes goes to everybody else, and what they made is heard.
+template <class Make>
+void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make) {
+  for (PeerNumber to = 0; to < peer_count; ++to)
+    if (to != peer.number()) mail.send(to, written(make(to)));
+  for (PeerNumber from = 0; from < peer_count; ++from) {
+    if (from == peer.number()) continue;
+    decltype(make(from)) message;
+    if (!read(mail.receive(from), message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
+    peer.hear(from, std::move(message));
+  }
+  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+}
+
+}  // namespace
+
+void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
+  const auto exchange = [&](auto&& make) { exchange_with_all(peer, peer_count, mail, make); };
+  peer.play();
+  for (;;) {
+    exchange([&](PeerNumber to) { return peer.claims_for(to); });
+    peer.judge();
+    exchange([&](PeerNumber) { return peer.verdict(); });
+    if (peer.conclude() == Outcome::final) break;
+    exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; });
+    if (peer.repeats(peer.number())) peer.replay();
+  }
+  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); });
+  peer.commit(next);
+}
+
+Arrivals own_bodies(const Peer& peer) {
+  Arrivals all;
+  for (const std::uint32_t body : peer.owned()) all.bodies.push_back({body, peer.state(body)});
+  return all;
+}
+
+std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count, std::span<const Arrivals> parts) {
+  physics::Portion whole(spec, body_count);
+  double latest = 0.0;
+  for (const Arrivals& part : parts)
+    for (const auto& [body, state] : part.bodies) latest = std::max(latest, state.flight.time);
+  whole.advance(latest);
+  std::uint32_t known = 0;
+  for (const Arrivals& part : parts)
+    for (const auto& [body, state] : part.bodies) {
+      if (body >= body_count || whole.is_there(body)) return std::nullopt;
+      whole.put(body, state);
+      ++known;
+    }
+  if (known != body_count) return std::nullopt;
+  return whole.world().hash();
+}
+
+std::uint64_t self_test_hash() {
+  physics::WorldSpec spec;
+  spec.field = {.length = 2.0, .width = 1.0, .goal_width = 0.0, .wall = 0, .bats_keep_to_half = false};
+  spec.puck_drag = 0.2, spec.bat_drag = 3.0;
+  spec.restitution = physics::RestitutionTable(1, 0.7);
+  physics::World world(spec);
+  world.add(physics::PostSpec{.position = {1.0, 0.5}, .radius = 0.05});
+  const physics::BodyId bat = world.add(physics::BatSpec{.position = {0.2, 0.5}});
+  for (int k = 0; k < 24; ++k) {
+    const double x = 0.35 + 0.2 * (k % 8), y = 0.15 + 0.35 * (k / 8), angle = 2.4 * k;
+    const physics::PuckSpec puck{.position = {x, y}, .velocity = {1.0 - 0.01 * angle, 0.03 * angle - 0.5}, .mass = 1.0 + k};
+    if (world.is_free(puck.position, puck.radius)) world.add(puck);
+  }
+  world.set_thrust(bat, {7.0, 1.0});
+  while (world.advance(3.0)) {
+  }
+  return world.hash();
+}
+
+}  // namespace rink::peer
