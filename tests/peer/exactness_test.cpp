@@ -93,6 +93,15 @@ void expect_same_histories(std::uint64_t first, std::uint64_t last, int window_m
 
 TEST(SharedSimulation, EqualsOneEngineBitForBitOver50Scenes) { expect_same_histories(0, 50, 60, 200); }
 
+/// Joint impacts that reach from one row into the next: what they only looked at, or moved by a rounding, counts as well.
+TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
+  for (const std::uint64_t number : {1541, 1661}) {
+    const Played played = expect_same_history(number, 150);
+    EXPECT_GT(played.truth.joint_impacts, 0u);
+    EXPECT_LT(played.counters.repeats, played.counters.windows / 10);
+  }
+}
+
 TEST(SharedSimulationLong, EqualsOneEngineBitForBitOver1000Scenes) { expect_same_histories(1000, 2000, 150, 3000); }
 
 }  // namespace

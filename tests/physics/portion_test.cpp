@@ -1,0 +1,103 @@
+// Parts of a world: bodies put in and taken out, windows undone and played again.
+#include "game/physics/portion.h"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "scenes.h"
+
+namespace rink::physics::test {
+namespace {
+
+/// Everything that a portion must carry: bats under keys, rest contacts, drag, goals.
+World whole_of(std::uint64_t number) {
+  WorldSpec spec = rink_of(4.0, 2.0, number % 2 == 0 ? 0.0 : 0.7, 0.2, 1.0);
+  if (number % 3 == 0) spec.field.goal_width = 0.5;
+  if (number % 4 == 1) spec.puck_friction = 0.6;
+  World world(spec);
+  std::mt19937_64 random(number);
+  scatter_posts(world, random, 2);
+  scatter_bats(world, random, 6);
+  scatter_pucks(world, random, 40, 0.05, 2.0);
+  return world;
+}
+
+void put_all(Portion& portion, const World& world) {
+  for (std::uint32_t body = 0; body < world.body_count(); ++body) portion.put(body, Portion::state_in(world, body));
+}
+
+/// The next 50 ms, with keys.
+template <class Playable>
+void play(Playable& world, std::uint64_t number, int window) {
+  std::mt19937_64 random(1000 * number + static_cast<std::uint64_t>(window) / 8);  // keys are held for a while, so that something gets pressed
+  const auto bat = static_cast<std::uint32_t>(2 + random() % 6);
+  const double x = static_cast<double>(random() % 3) - 1.0, y = static_cast<double>(random() % 3) - 1.0;
+  if constexpr (std::is_same_v<Playable, World>) {
+    world.set_thrust({bat}, {6.0 * x, 6.0 * y});
+    RandomKeys::advance(world, 0.05 * (window + 1));
+  } else {
+    world.set_thrust(bat, {6.0 * x, 6.0 * y});
+    world.advance(0.05 * (window + 1));
+  }
+}
+
+TEST(Portion, OfAllBodiesGoesOnAsTheWorldDoesHoweverOftenItsWindowsAreUndone) {
+  std::size_t held = 0;
+  for (std::uint64_t number = 0; number < 12; ++number) {
+    World world = whole_of(number);
+    Portion portion(world.spec(), world.body_count());
+    put_all(portion, world);
+    for (int window = 0; window < 60; ++window) {
+      play(world, number, window);
+      portion.begin_window();
+      const std::uint64_t before = portion.world().hash();
+      for (int attempt = 0; attempt < 2; ++attempt) {
+        play(portion, number, window);
+        portion.undo();
+        EXPECT_EQ(portion.world().hash(), before) << "scene " << number << ", window " << window;
+      }
+      play(portion, number, window);
+      held += portion.holds().size();
+      ASSERT_EQ(portion.world().hash(), world.hash()) << "scene " << number << ", window " << window;
+    }
+  }
+  EXPECT_GT(held, 100u);
+}
+
+TEST(Portion, HasOnlyWhatIsPutThereAndForgetsWhatIsDropped) {
+  const World world = whole_of(1);
+  Portion portion(world.spec(), world.body_count());
+  portion.advance(1.0);
+  EXPECT_EQ(portion.world().counters().predictions, 0u);
+  const std::uint32_t body = world.body_count() - 1;
+  portion.put(body, Portion::state_in(world, body));
+  EXPECT_TRUE(portion.is_there(body));
+  EXPECT_EQ(portion.world().motion({body}).velocity, world.motion({body}).velocity);
+  portion.drop(body);
+  EXPECT_FALSE(portion.is_there(body));
+  EXPECT_FALSE(portion.world().is_in_play({body}));
+  const std::uint64_t events = portion.world().counters().events();
+  portion.advance(20.0);
+  EXPECT_EQ(portion.world().counters().events(), events);
+}
+
+TEST(Portion, KnowsHowABodyWasBeforeTheWindow) {
+  World world = whole_of(3);
+  Portion portion(world.spec(), world.body_count());
+  put_all(portion, world);
+  portion.begin_window();
+  portion.advance(1.0);
+  EXPECT_GT(portion.journal().changes.size(), 20u);
+  for (std::uint32_t body = 0; body < world.body_count(); ++body) {
+    const BodyState before = portion.state_before(body), then = Portion::state_in(world, body);
+    EXPECT_EQ(before.flight.x, then.flight.x);
+    EXPECT_EQ(before.flight.vy, then.flight.vy);
+    EXPECT_EQ(before.flight.time, then.flight.time);
+    EXPECT_EQ(before.impacts, then.impacts);
+    EXPECT_EQ(before.acceleration, then.acceleration);
+  }
+}
+
+}  // namespace
+}  // namespace rink::physics::test
