@@ -195,7 +195,7 @@ game::ExitStatus play(const Options& options) {
     std::ofstream file(options.report);
     file << written.dump(2) << '\n';
     if (!file.flush()) throw std::runtime_error("cannot write '" + options.report + "'");
-  } else {
+  } else if (crowd.has_started()) {
     std::printf("%s\n", written.dump(2).c_str());
   }
   return result;

@@ -34,6 +34,10 @@ inline CLI::Validator number_from(double low, double high) {
   return CLI::Validator(check, range);
 }
 
+inline CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); }, "");
+}
+
 /// 0, which leaves the choice to the program, or a number from `low` to `high`.
 inline CLI::Validator zero_or_number_from(double low, double high) {
   const CLI::Validator from = number_from(low, high);

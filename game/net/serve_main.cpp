@@ -276,10 +276,10 @@ game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene
 }
 
 /// Asks a running server, once or again and again.
-game::ExitStatus show_status(const game::ServeOptions& options) {
+game::ExitStatus show_status(const game::ServeOptions& options) try {
   const auto [address, port] = game::address_and_port("--status", options.status);
   do {
-    const game::StatusAnswer answer = game::ask_status(address, port, now_s);
+    const game::StatusAnswer answer = game::ask_status({.address = address, .port = port, .transport = options.transport, .key_file = options.key_file}, now_s);
     if (!answer.reports) {
       spdlog::error("--status: {}: {}", options.status, answer.trouble);
       return game::ExitStatus::no_server;
@@ -290,6 +290,9 @@ game::ExitStatus show_status(const game::ServeOptions& options) {
     while (options.every_s > 0.0 && !game::is_interrupted && now_s() < next_s) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   } while (options.every_s > 0.0 && !game::is_interrupted);
   return game::ExitStatus::ok;
+} catch (const rti::TransportError& error) {
+  spdlog::error("--status: {}", error.what());
+  return game::ExitStatus::no_server;
 }
 
 game::ExitStatus serve(game::ServeOptions& options) {
@@ -334,7 +337,6 @@ game::ExitStatus serve(game::ServeOptions& options) {
     return game::ExitStatus::failed;
   }
   if (!is_complete) {
-    const std::uint32_t came = process.server().player_count();
     if (came < options.clients) spdlog::error("{} of {} players came within {} s{}", came, options.clients, options.patience_s, missing);
     else spdlog::error("{} players came, but not all were ready to start within {} s", came, options.patience_s);
     return game::ExitStatus::nobody_came;

@@ -38,15 +38,15 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--bat-count", options.bat_count, "so many bats on the same field instead; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--puck-count", options.puck_count, "so many pucks on the same field instead; 0: as it is")->check(number_from(0, pucks_max))->capture_default_str();
   app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
-  app.add_option("--federation", options.federation_file, "TOML file with federation, fom, and either address and port or a list of nodes, who then are waited for and nobody else let in (docs/rti.md)");
-  app.add_option("--address", options.address, "to listen on")->capture_default_str();
-  app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->capture_default_str();
+  CLI::Option* const file = app.add_option("--federation", options.federation_file, "TOML file with federation, fom, and either address and port or a list of nodes, who then are waited for and nobody else let in (docs/rti.md)");
+  app.add_option("--address", options.address, "to listen on")->check(not_empty())->excludes(file)->capture_default_str();
+  app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->excludes(file)->capture_default_str();
   app.add_option("--transport", options.transport, "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients of this machine only, by the port")
       ->check(CLI::IsMember(std::vector<std::string>(rti::socket_transport_names.begin(), rti::socket_transport_names.end())))
       ->capture_default_str();
   app.add_option("--key-file", options.key_file, "let in only clients that have the same file (docs/rti.md, Admission); none: all")->check(CLI::ExistingFile);
   app.add_option("--rate-limit", options.rate_limit_bytes_per_s, "bytes per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e12))->capture_default_str();
-  app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e9))->capture_default_str();
+  app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(zero_or_number_from(1.0, 1e9))->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
@@ -64,8 +64,8 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
   app.add_option("--record", options.record, "file for the key log of this run; folder for those of hosted matches, by default matches");
   app.add_option("--evidence", options.evidence, "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
-  app.add_option("--status", options.status, "ADDRESS:PORT of a running server: print what it says of its federations and federates, and end; nothing is served");
-  app.add_option("--every", options.every_s, "seconds after which --status prints again, until interrupted; 0: once")->check(number_from(0.0, 3600.0))->capture_default_str();
+  app.add_option("--status", options.status, "ADDRESS:PORT of a running server: print what it says of its federations and federates, and end; nothing is served. --transport and --key-file as the server's")->check(not_empty());
+  app.add_option("--every", options.every_s, "seconds after which --status prints again, until interrupted; 0: once")->check(number_from(0.0, 3600.0))->needs("--status")->capture_default_str();
   app.add_option("--report", options.report, "file for the measurements, as JSON");
 }
 

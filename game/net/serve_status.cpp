@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
+#include "game/net/gate.h"
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/socket_transport.h"
 
 namespace rink::game {
 
@@ -34,11 +36,20 @@ std::string drops_of(const rti::FederationReport& report) {
   return text.empty() ? "none" : text;
 }
 
-/// As many characters as fit a column; names come from strangers, so nothing that a terminal would obey.
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
+/// Names come from strangers, so nothing that a terminal would obey or could not show.
 std::string shown(const std::string& name) {
   std::string text = name;
+  const bool is_text = is_utf8(name);
   for (char& letter : text)
-    if (static_cast<unsigned char>(letter) < 32 || letter == 127) letter = '?';
+    if (static_cast<unsigned char>(letter) < 32 || letter == 127 || (!is_text && static_cast<unsigned char>(letter) > 127)) letter = '?';
   return text;
 }
 
@@ -51,19 +62,20 @@ std::string time_of(const rti::FederateCounts& counts) {
 
 }  // namespace
 
-StatusAnswer ask_status(const std::string& address, std::uint16_t port, const std::function<double()>& now_s, double patience_s) {
+StatusAnswer ask_status(const StatusQuestion& question, const std::function<double()>& now_s, double patience_s) {
   const rti::Fom no_model;
   Asker asker;
   rti::Ambassador ambassador(no_model, asker);
-  rti::TcpTransport tcp;
-  rti::FederateLink link(ambassador, tcp, tcp.connect(address, port));
+  rti::SocketTransport socket(question.transport);
+  Gate gate(socket.get(), {.key_file = question.key_file, .role = rti::Role::federate, .federation = question.federation}, now_s);
+  rti::FederateLink link(ambassador, gate.transport(), socket.connect(question.address, question.port));
   rti::FederateLinks links;
   links.add(link);
   ambassador.query_management();
   const double give_up_s = now_s() + patience_s;
   while (!asker.reports && asker.loss.empty() && !link.is_finished() && now_s() < give_up_s) {
     links.flush(now_s());
-    tcp.poll(std::chrono::milliseconds(20), links);
+    gate.transport().poll(std::chrono::milliseconds(20), links);
   }
   if (asker.reports) return {std::move(asker.reports), ""};
   if (link.is_finished() && link.close_reason() == rti::CloseReason::refused) return {{}, "nobody listens there: " + asker.loss};
