@@ -79,8 +79,8 @@ class Scene final : public Outlet {
     tick();
     tick();
     require(execution_.federate_count() == 1, "the strangers are gone");
-    require(execution_.object_count() <= 1, "so are their objects");
-    for (const auto& [handle, known] : heard_.objects) require(handle == own_.value, "of which the witness has been told");
+    require(may_leave_objects_ || execution_.object_count() <= 1, "so are their objects");
+    for (const auto& [handle, known] : heard_.objects) require(may_leave_objects_ || handle == own_.value, "of which the witness has been told");
     require(heard_.out_of_scope_updates == 0, "updates come in scope");
   }
 
@@ -90,6 +90,7 @@ class Scene final : public Outlet {
     return true;
   }
   void say(ConnectionId who, Bytes bytes) {
+    may_leave_objects_ |= std::ranges::find(bytes, static_cast<std::byte>(MessageKind::resign_directive)) != bytes.end();
     if (has(who)) execution_.receive(who, bytes);
   }
   void say_frame(ConnectionId who, Input& input) {
@@ -129,6 +130,7 @@ class Scene final : public Outlet {
   Ambassador witness_{harbour(), heard_};
   ObjectHandle own_;
   std::array<bool, strangers + 1> is_connected_{};
+  bool may_leave_objects_ = false;  ///< somebody may have said that his objects outlive him, owned by nobody
   std::vector<std::byte> spoken_;
   double now_ = 0.0;
 };
