@@ -23,6 +23,7 @@ HlaError error_of(Refusal refusal) {
     case Refusal::wrong_federation: return HlaError::federation_execution_does_not_exist;
     case Refusal::name_taken: return HlaError::federate_name_already_in_use;
     case Refusal::bad_name: return HlaError::illegal_name;
+    case Refusal::not_listed:
     case Refusal::not_admitted: return HlaError::unauthorized;
     case Refusal::wrong_version:
     case Refusal::federation_full: break;
