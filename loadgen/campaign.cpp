@@ -49,7 +49,7 @@ Outcome run_campaign(const Experiment& experiment, const RunnerSettings& setting
       if (has_run_of(cell, before)) continue;
       progress.starts(cell);
       const auto start = Clock::now();
-      const auto run = experiment.transport == TransportKind::tcp ? run_cell : run_virtual_cell;
+      const auto run = experiment.transport == TransportKind::virtual_time ? run_virtual_cell : run_cell;
       const auto record = run(settings, experiment, cell, key_logs.at(game_of(cell, experiment.population)));
       if (!record) {
         outcome.was_interrupted = true;

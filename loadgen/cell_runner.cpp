@@ -153,6 +153,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   add("--seed", std::to_string(cell.seed));
   add("--address", "127.0.0.1");
   add("--port", "0");
+  add("--transport", to_string(experiment.transport));
   add("--scheme", cell.scheme);
   if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
   if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
@@ -172,6 +173,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
                                         const std::filesystem::path& report) {
   std::vector<std::string> arguments{"--connect", address};
   const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  add("--transport", to_string(experiment.transport));
   add("--count", std::to_string(cell.clients));
   add("--seed", std::to_string(cell.seed));
   if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players)) {

@@ -49,7 +49,7 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   reader.number("view_area", result.view_area, "a number from 0 (as view_fraction says) to 1e12, and above 0 only beside a single view_fraction",
                 [&result](double v) { return v == 0.0 || (v > 0.0 && v <= 1e12 && result.view_fractions.size() == 1); });
   reader.number("delay_ms", result.delay_ms, "a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 10'000.0; });
-  reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"virtual", TransportKind::virtual_time}});
+  reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"udp", TransportKind::udp}, {"shm", TransportKind::shared_memory}, {"virtual", TransportKind::virtual_time}});
   reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}});
   reader.choice<Design>("design", result.design, {{"matrix", Design::matrix}, {"one_at_a_time", Design::one_at_a_time}});
   reader.choice<Population>("population", result.population, {{"fixed", Population::fixed}, {"per_client", Population::per_client}});
@@ -70,6 +70,16 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
 }
 
 }  // namespace
+
+const char* to_string(TransportKind kind) {
+  switch (kind) {
+    case TransportKind::tcp: return "tcp";
+    case TransportKind::udp: return "udp";
+    case TransportKind::shared_memory: return "shm";
+    case TransportKind::virtual_time: return "virtual";
+  }
+  return "unknown transport";
+}
 
 std::vector<std::string> known_schemes() { return im::filter_names(); }
 

@@ -29,8 +29,9 @@ enum class KeySource { replay, live };
 /// from few runs.
 enum class Design { matrix, one_at_a_time };
 
-/// `tcp`: a server process and a bots process over loopback. `virtual_time`: both in this process, over a modelled network and under a virtual clock.
-enum class TransportKind { tcp, virtual_time };
+/// `tcp`, `udp` beside it, `shared_memory`: a server process and a bots process of this machine. `virtual_time`: both in this process, over a modelled network and under a virtual clock.
+enum class TransportKind { tcp, udp, shared_memory, virtual_time };
+const char* to_string(TransportKind kind);  ///< as experiments name it
 
 /// What truth calls relevant to a player; h is half the view's side. `rectangle`: an entity whose box touches the square of half side h around the bat's true
 /// centre. `disc`: one whose centre is within h of it.

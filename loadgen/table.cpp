@@ -80,7 +80,7 @@ bool has_fewest_bytes(const SummaryRow& row, const std::vector<SummaryRow>& rows
 std::string block_title(const SummaryRow& row, const RunRecord& run) {
   const std::string view = run.view_area > 0.0 ? formatted("%g m2", run.view_area) : formatted("%g %% of the field", row.parameters.view_fraction * 100.0);
   return formatted("%.30s at %g Hz, each client sees %s", row.mode.c_str(), run.tick_rate_hz, view.c_str()) +
-         (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
+         (run.transport == "udp" ? ", datagrams" : run.transport == "shm" ? ", shared memory" : "") + (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
 }
 
 /// What filter and policy save apart and together, a line for each row that has both.

@@ -43,7 +43,7 @@ std::string setting_text(const Experiment& experiment, std::span<const RunRecord
   std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
                      short_number(experiment.tick_rate_hz) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
                      view_text(experiment) + "; ";
-  if (experiment.transport == TransportKind::tcp) text += "processes over TCP; ";
+  if (experiment.transport != TransportKind::virtual_time) text += std::string("processes over ") + to_string(experiment.transport) + "; ";
   else text += "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other; ";
   // A search runs cells of its own choice beside those of the experiment.
   const std::vector<Cell> cells = cells_of(experiment);

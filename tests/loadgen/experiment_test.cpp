@@ -69,7 +69,7 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 2]"), HasSubstr("view_fraction = 2"));
   EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 0.2]\nview_area = 4"), AllOf(StartsWith("dir/x.toml:4: view_area = 4"), HasSubstr("single view_fraction")));
   EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
-  EXPECT_THAT(complaint_about(minimal + "transport = 'udp'"), HasSubstr("tcp, virtual"));
+  EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, virtual"));
   EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
   EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc"));
   EXPECT_THAT(complaint_about(minimal + "players = 'nobody'"), AllOf(HasSubstr("random, chaser"), HasSubstr("recorded key log")));
