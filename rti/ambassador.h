@@ -301,7 +301,6 @@ class Ambassador : public FomLookup, public AdvisorySwitches<Ambassador> {
   /// Says the header of `object`, in one block with those before it if they had the same.
   template <class Header>
   void say_of(Header header, ObjectHandle object);
-
   void lose(std::string_view why);
   bool hold(Bytes bytes);
   bool take_bytes(Bytes bytes);
@@ -330,7 +329,6 @@ class Ambassador : public FomLookup, public AdvisorySwitches<Ambassador> {
   bool spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values, const Stamp& stamp);
   void release_spared(ObjectClassHandle object_class, AttributeSet heard);
   void release_spared(ObjectHandle object);
-
   void say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp);
   void begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp);
 
