@@ -88,7 +88,7 @@ void FederationExecution::Parts::write_due_states(std::uint32_t slot) {
     if (set.is_empty()) continue;
     values_.clear();
     objects_.append(object, set, values_);
-    const Stamp& stamp = federates_[objects_[object].owner].newest;
+    const Stamp stamp = newest_of(object);
     ++counters_.updates_sent;
     ++counters_.updates_repaired;
     if (way_ != nullptr && batch_.add(objects_[object].object_class, set, stamp, each.handle, values_)) continue;

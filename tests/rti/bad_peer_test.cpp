@@ -7,7 +7,7 @@
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
-#include "tests/rti/rig.h"
+#include "tests/rti/bare.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -50,65 +50,6 @@ TEST_P(Refused, EachReasonHasItsOwnText) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
-
-/// Frames as a stranger would make them.
-template <class... Messages>
-std::vector<std::byte> frame_of(Messages... messages) {
-  FrameWriter frame(frame_max_to_rti);
-  const auto add = [&](auto& message) {
-    write(frame.begin_message(measure(message)), message);
-    frame.appended();
-  };
-  (add(messages), ...);
-  return {frame.bytes().begin(), frame.bytes().end()};
-}
-
-JoinMessage join_of(std::string_view name) {
-  JoinMessage message;
-  message.fom_hash = harbour().hash();
-  message.federation = "rink";
-  message.name = name;
-  message.type = "tester";
-  return message;
-}
-
-/// An execution without any transport, which keeps what it sends.
-struct Bare final : Outlet {
-  FederationExecution execution;
-  std::map<ConnectionId, std::vector<std::byte>> sent;
-  std::map<ConnectionId, std::string> dropped;
-  Recorder witness_heard;
-  Ambassador witness{harbour(), witness_heard};  ///< a good federate that must never be harmed, on connection 0
-
-  explicit Bare(const FederationSettings& settings = {}) : execution(harbour(), settings) {
-    execution.connect(0);
-    witness.join("rink", "witness", "tester");
-    tick();
-    witness.watch_federates();
-    witness.subscribe_object_class_attributes(vessel, AttributeSet{position, speed});
-    witness.publish_object_class_attributes(vessel, AttributeSet{position, speed});
-    tick();
-  }
-  void send(ConnectionId connection, std::span<const Bytes> parts) override {
-    for (const Bytes part : parts) {
-      if (connection == 0) EXPECT_TRUE(witness.receive(part));
-      else sent[connection].insert(sent[connection].end(), part.begin(), part.end());
-    }
-  }
-  void drop(ConnectionId connection, std::string_view why) override { dropped[connection] = why; }
-  void tick() {
-    execution.receive(0, witness.outgoing());
-    witness.clear_outgoing();
-    execution.match();
-    execution.flush(*this);
-  }
-  void enter(ConnectionId connection, std::string_view name) {
-    execution.connect(connection);
-    execution.receive(connection, frame_of(join_of(name)));
-    tick();
-  }
-  std::uint64_t drops(Violation violation) { return execution.counters().drops[static_cast<std::size_t>(violation)]; }
-};
 
 constexpr std::uint16_t vessel_number = 1;
 

@@ -1,0 +1,54 @@
+// Whoever takes more than its part of what all share gets no more, or goes; nobody else pays for it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
+#include "rti/wire/message.h"
+#include "rti/wire/region_messages.h"
+#include "rti/wire/update_block.h"
+#include "tests/rti/bare.h"
+#include "tests/rti/timed_federation.h"
+
+namespace rink::rti::testing {
+namespace {
+
+constexpr std::uint32_t villains_first = 1 * object_block;  // the second federate's block
+const std::uint16_t vessel_number = static_cast<std::uint16_t>(vessel.value);
+
+template <class Message>
+std::size_t size_of(Message message) {
+  return measure(message);
+}
+
+template <class Limit>
+FederationSettings with(Limit FederationSettings::*limit, std::uint32_t value) {
+  FederationSettings settings;
+  settings.*limit = value;
+  return settings;
+}
+
+TEST(GreedyPeer, WhatWasLostOfADividedObjectIsRepairedAllTheSame) {
+  const ObjectClassHandle tide = *harbour().object_class("Tide");
+  const AttributeSet level{*harbour().attribute(tide, "level")};
+  Bare bare;
+  bare.datagram_size = 1191;
+  bare.enter(1, "gauge");
+  bare.execution.receive(1, frame_of(SubscribeObjectClassMessage{static_cast<std::uint16_t>(tide.value), level.bits, RegionHandle::none}));
+  bare.witness.publish_object_class_attributes(tide, level);
+  bare.tick();
+  const ObjectHandle object = bare.witness.register_object_instance(tide);
+  bare.tick();
+  bare.witness.update_attribute_values(object, level, values_of(1.5), {});
+  bare.tick();
+  bare.witness.unconditional_attribute_ownership_divestiture(object, AttributeSet{privilege_to_delete_object});
+  for (double now = 0.1; now < 1.0; now += 0.1) bare.pass(now);
+  EXPECT_GT(bare.execution.counters().datagrams_sent, 0u);
+  EXPECT_GT(bare.execution.counters().updates_repaired, 0u);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
