@@ -58,6 +58,7 @@ void fetch(const Value& value) {
 
 void FederationExecution::Parts::flush(Outlet& outlet) {
   send_answers(outlet);
+  settle_update_requests();
   runs_ = buffering_->seal();
   baselines_.begin(runs_, federates_.size());
   batch_.begin_tick();
@@ -116,6 +117,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   federate.control.clear();
   federate.tail.clear();
   federate.tail_block.close();
+  federate.looked_at = federate.said = 0;
   FederateInterest& interest = interest_.of(slot);
   if (interest.has_fresh && !is_held) {
     interest.fresh.clear();

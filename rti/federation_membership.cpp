@@ -156,6 +156,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   Federate& federate = federates_[slot];
   leave_objects(slot);
   interest_.remove_federate(slot);
+  forget_update_requests(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);
   if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);  // else its handles have been seen

@@ -9,6 +9,10 @@ namespace rink::rti {
 using Outcome = std::optional<Violation>;
 
 namespace {
+std::string as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+}  // namespace
+
+namespace {
 
 /// As the model says.
 AttributeSet best_effort_of(const ObjectClass& object_class) {
@@ -111,8 +115,8 @@ Outcome FederationExecution::Parts::request_update(std::uint32_t slot, Reader& r
     return std::nullopt;
   }
   if (message.number >= fom_.object_classes().size() || !fom_.attributes(ObjectClassHandle{message.number}).includes(attributes)) return Violation::unknown_name;
-  for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)
-    if (objects_[object].is_alive && fom_.is_a(ObjectClassHandle{objects_[object].object_class}, ObjectClassHandle{message.number})) ask_owners(slot, object, attributes, message.tag);
+  AttributeSet& asked = update_requests_[{slot, RegionHandle{}.value, static_cast<std::uint16_t>(message.number), as_text(message.tag)}];
+  asked = asked | attributes;
   return std::nullopt;
 }
 
@@ -122,12 +126,12 @@ void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot objec
   const Object& asked = objects_[object];
   const auto ask = [&](std::uint32_t owner) {
     const AttributeSet owned = owner == slot ? AttributeSet() : attributes & ownership_.owned_by(owner, object) & fom_.attributes(ObjectClassHandle{asked.object_class});
-    if (!owned.is_empty()) say(federates_[owner].tail, ProvideUpdateMessage{asked.handle.value, owned.bits, tag});
+    if (owned.is_empty()) return;
+    AttributeSet& told = updates_to_provide_[{owner, asked.handle.value, as_text(tag)}];
+    told = told | owned;
   };
   if (asked.owner != no_federate) ask(asked.owner);
-  else
-    for (std::uint32_t owner = 0; owner < federates_.size(); ++owner)
-      if (federates_[owner].is_joined) ask(owner);
+  else ownership_.for_each_owner(object, ask);
 }
 
 /// Those that may travel by datagram: what the model says may become reliable, and only what it says travels so at all.

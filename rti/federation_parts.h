@@ -1,8 +1,10 @@
 // What a federation execution is made of; for its own sources only.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -36,6 +38,8 @@ class FederationExecution::Parts {
     FederateHandle handle;
     std::uint32_t block = 0;  ///< of its objects' handles
     std::uint32_t objects_registered = 0;
+    std::size_t name_bytes = 0;                ///< of their names
+    std::size_t looked_at = 0, said = 0;       ///< since the last flush: objects, for its requests for updates; bytes of interactions
     std::string name, type;
     std::vector<AttributeSet> published;                                  ///< by object class
     std::vector<bool> published_interactions;                             ///< by interaction class
@@ -171,7 +175,14 @@ class FederationExecution::Parts {
   Outcome associate_region(std::uint32_t slot, Reader& reader);
   Outcome associate_regions(std::uint32_t slot, Reader& reader);
   Outcome take_regional_class(std::uint32_t slot, Reader& reader);
-  void request_update(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region);
+  /// Looks for the objects that requests mean, and tells their owners. Once per flush: however often is asked, each owner is told of an object once.
+  void settle_update_requests();
+  Outcome settle_update_requests(std::uint32_t slot, RegionHandle region);
+  void find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, Bytes tag);
+  void forget_update_requests(std::uint32_t slot);
+  static constexpr std::size_t looked_at_max = 1u << 19;  ///< objects for one federate's requests in one flush; the rest waits for the next one
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::string>, AttributeSet> update_requests_;  ///< by asking federate's slot, region, class and tag
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::string>, AttributeSet> updates_to_provide_;  ///< by owner's slot, object and tag
   Outcome take_regional_interaction(std::uint32_t slot, Reader& reader);
   Outcome take_interaction_within(std::uint32_t slot, Reader& reader);
 

@@ -51,6 +51,7 @@ Outcome FederationExecution::Parts::create_or_delete_region(std::uint32_t slot, 
   const RegionHandle region{message.region};
   if (kind == MessageKind::create_region) return create_region(slot, region, {});
   if (!interest_.has_region(slot, region)) return Violation::unknown_name;
+  if (const Outcome outcome = settle_update_requests(slot, region)) return outcome;
   interest_.delete_region(slot, region);
   --federates_[slot].counts.regions;
   join_groups(slot);
@@ -134,7 +135,11 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
     const RegionHandle region{pair.region};
     if (!all.includes(attributes) || !interest_.has_region(slot, region)) return Violation::unknown_name;
     const auto action = static_cast<RegionAction>(message.action);
-    if (action == RegionAction::request_update) return request_update(slot, {message.object_class}, attributes, region), std::nullopt;
+    if (action == RegionAction::request_update) {
+      AttributeSet& asked = update_requests_[{slot, region.value, message.object_class, std::string()}];
+      asked = asked | attributes;
+      return std::nullopt;
+    }
     Subscription now = interest_.subscribed(slot, message.object_class, region);
     now.heard = action == RegionAction::remove ? now.heard.without(attributes) : now.heard | attributes;
     now.active = action == RegionAction::add ? now.active | attributes : now.active.without(attributes);
@@ -146,12 +151,47 @@ Outcome FederationExecution::Parts::take_regional_class(std::uint32_t slot, Read
 }
 
 /// Looks at every object: it is asked for seldom, and what overlaps is not kept.
-void FederationExecution::Parts::request_update(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region) {
+void FederationExecution::Parts::find_owners(std::uint32_t slot, ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region, Bytes tag) {
+  federates_[slot].looked_at += objects_.slot_count();
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object) {
     const Object& asked = objects_[object];
     if (!asked.is_alive || !fom_.is_a(ObjectClassHandle{asked.object_class}, object_class)) continue;
-    ask_owners(slot, object, interest_.overlapping(slot, region, object, attributes), {});
+    ask_owners(slot, object, region ? interest_.overlapping(slot, region, object, attributes) : attributes, tag);
   }
+}
+
+void FederationExecution::Parts::settle_update_requests() {
+  for (auto each = update_requests_.begin(); each != update_requests_.end();) {
+    const auto& [slot, region, object_class, tag] = each->first;
+    if (federates_[slot].looked_at >= looked_at_max) {
+      each = update_requests_.lower_bound({slot + 1, 0, 0, {}});
+      continue;
+    }
+    find_owners(slot, {object_class}, each->second, {region}, std::as_bytes(std::span(tag)));
+    each = update_requests_.erase(each);
+  }
+  for (const auto& [whom, attributes] : updates_to_provide_) {
+    const auto& [owner, object, tag] = whom;
+    say(federates_[owner].tail, ProvideUpdateMessage{object, attributes.bits, std::as_bytes(std::span(tag))});
+  }
+  updates_to_provide_.clear();
+}
+
+/// Those within a region that is about to go. Who makes regions, asks and deletes them faster than anybody can look is not waited for.
+Outcome FederationExecution::Parts::settle_update_requests(std::uint32_t slot, RegionHandle region) {
+  for (auto each = update_requests_.lower_bound({slot, region.value, 0, {}}); each != update_requests_.end();) {
+    const auto& [asking, within, object_class, tag] = each->first;
+    if (asking != slot || within != region.value) break;
+    if (federates_[slot].looked_at >= looked_at_max) return Violation::over_limit;
+    find_owners(slot, {object_class}, each->second, region, std::as_bytes(std::span(tag)));
+    each = update_requests_.erase(each);
+  }
+  return std::nullopt;
+}
+
+void FederationExecution::Parts::forget_update_requests(std::uint32_t slot) {
+  update_requests_.erase(update_requests_.lower_bound({slot, 0, 0, {}}), update_requests_.lower_bound({slot + 1, 0, 0, {}}));
+  updates_to_provide_.erase(updates_to_provide_.lower_bound({slot, 0, {}}), updates_to_provide_.lower_bound({slot + 1, 0, {}}));
 }
 
 Outcome FederationExecution::Parts::take_regional_interaction(std::uint32_t slot, Reader& reader) {

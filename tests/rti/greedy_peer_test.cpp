@@ -50,5 +50,30 @@ TEST(GreedyPeer, WhatWasLostOfADividedObjectIsRepairedAllTheSame) {
   EXPECT_GT(bare.execution.counters().updates_repaired, 0u);
 }
 
+TEST(GreedyPeer, HoweverOftenUpdatesAreRequestedTheirOwnerIsToldOncePerFlush) {
+  constexpr std::uint32_t fleet = 50;
+  const AttributeSet both{position, speed};
+  Bare bare;
+  for (std::uint32_t i = 0; i < fleet; ++i) bare.witness.register_object_instance(vessel);
+  bare.enter(1, "nag");
+  static const auto bounds = values_of(std::uint32_t{0}, 0.0, 0.0, 9.0, 9.0);
+  bare.execution.receive(1, frame_of(CreateRegionMessage{0}, ModifyRegionsMessage{1, bounds}));
+  bare.tick();
+  std::vector<std::byte> pairs;
+  for (std::size_t i = 0; i < regions_per_message_max; ++i) {
+    const auto pair = values_of(both.bits, std::uint32_t{0});
+    pairs.insert(pairs.end(), pair.begin(), pair.end());
+  }
+  const std::size_t before = bare.witness_bytes;
+  RegionalClassMessage request{vessel_number, static_cast<std::uint8_t>(RegionAction::request_update), regions_per_message_max, pairs};
+  for (int i = 0; i < 100; ++i) bare.execution.receive(1, frame_of(request));
+  bare.tick();
+  EXPECT_EQ(bare.witness_bytes - before, frame_header_size + fleet * size_of(ProvideUpdateMessage{}));
+  bare.execution.receive(1, frame_of(request, CreateRegionMessage{1}, DeleteRegionMessage{0}));
+  bare.tick();
+  EXPECT_EQ(bare.witness_bytes - before, 2 * (frame_header_size + fleet * size_of(ProvideUpdateMessage{}))) << "also of a region that is deleted at once";
+  EXPECT_TRUE(bare.dropped.empty());
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
