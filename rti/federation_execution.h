@@ -42,8 +42,10 @@ struct FederationSettings {
   im::FilterSettings filter_settings;
   std::vector<std::string> members{};       ///< names of the federates that may join; none: anybody
   std::uint32_t federate_max = 16'000;      ///< joined at once; below `object_block_max`
-  std::uint32_t object_max = 1u << 20;      ///< registered at once
+  std::uint32_t object_max = 1u << 20;      ///< registered at once; beyond it, who has more than an even share of them gets no more
   std::uint32_t objects_per_federate_max = object_block;
+  std::size_t name_bytes_per_federate_max = 8u << 20;           ///< of all the objects that it ever registers
+  std::size_t interaction_bytes_per_flush_max = 512u << 10;     ///< that one federate says to others between two flushes, 16 for each and its parameters
   std::uint32_t timed_max = 1u << 20;       ///< messages in time-stamp order that wait for somebody, or can still be taken back
   Patience patience;
   std::uint32_t keyframe_period = 1;        ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")

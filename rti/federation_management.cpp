@@ -10,8 +10,8 @@ using Outcome = std::optional<Violation>;
 Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t slot) {
   RegisterSynchronizationPointMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (points_.size() == synchronization_point_max) return Violation::over_limit;
   SynchronizationPoint point;
+  point.registrar = federates_[slot].handle;
   const auto failure = find_members(message, point);
   say(federates_[slot].control, SynchronizationPointRegisteredMessage{message.label, static_cast<std::uint8_t>(failure.value_or(SynchronizationFailure{}))});
   if (failure) return std::nullopt;
@@ -24,8 +24,12 @@ Outcome FederationExecution::Parts::register_point(Reader& reader, std::uint32_t
 }
 
 std::optional<SynchronizationFailure> FederationExecution::Parts::find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const {
-  for (const SynchronizationPoint& other : points_)
+  std::size_t own = 0;
+  for (const SynchronizationPoint& other : points_) {
     if (other.label == message.label) return SynchronizationFailure::label_not_unique;
+    own += other.registrar == point.registrar ? 1 : 0;
+  }
+  if (own >= synchronization_point_max) return SynchronizationFailure::over_limit;
   point.is_for_all = message.members.count == 0;
   if (point.is_for_all) {
     for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
@@ -66,6 +70,16 @@ void FederationExecution::Parts::join_points(std::uint32_t slot) {
 }
 
 void FederationExecution::Parts::leave_points(std::uint32_t slot) {
+  // Points outlive who registered them, but not so many that joining, registering and leaving over and over grows for ever.
+  auto left = std::ranges::count_if(points_, [](const SynchronizationPoint& each) { return !each.registrar; });
+  std::vector<SynchronizationPoint> kept;
+  for (SynchronizationPoint& point : points_) {
+    const bool is_left = point.registrar == federates_[slot].handle;
+    if (is_left && static_cast<std::size_t>(left) >= points_left_max) continue;
+    if (is_left) ++left, point.registrar = {};
+    kept.push_back(std::move(point));
+  }
+  points_ = std::move(kept);
   for (SynchronizationPoint& point : points_) {
     std::erase(point.members, slot);
     std::erase(point.awaited, slot);

@@ -75,13 +75,15 @@ class FederationExecution::Parts {
   struct SynchronizationPoint {
     std::string label;
     std::vector<std::byte> tag;
+    FederateHandle registrar;            ///< none once it has left
     bool is_for_all = false;             ///< who joins before it is reached belongs to it
     std::vector<std::uint32_t> members;  ///< slots of the federates in its set
     std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
     std::vector<FederateHandle> failed;  ///< those who said that they could not
   };
   using Outcome = std::optional<Violation>;  ///< nothing: all is well
-  static constexpr std::size_t synchronization_point_max = 256;
+  static constexpr std::size_t synchronization_point_max = 64;  ///< of one federate, not reached yet
+  static constexpr std::size_t points_left_max = 256;  ///< that live on after their registrars have left
 
   // Connections and membership (federation_membership.cpp).
   void connect(ConnectionId connection);
@@ -120,6 +122,7 @@ class FederationExecution::Parts {
   Outcome take_message(ConnectionId connection, std::uint32_t slot, Reader& reader);
   Outcome take_object(std::uint32_t slot, MessageKind kind, Reader& reader);
   Outcome register_object(std::uint32_t slot, Reader& reader);
+  void refuse_object(std::uint32_t slot, ObjectHandle object);
   Outcome delete_object(std::uint32_t slot, Reader& reader);
   /// All who know it are told, who deleted it too: up to then it may hear of it.
   void delete_object(ObjectSlot object);

@@ -8,6 +8,9 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
+/// What an interaction costs beside its parameters, roughly.
+constexpr std::size_t interaction_head = 16;
+
 void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();
@@ -117,13 +120,23 @@ Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& 
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   if (federate.published[message.object_class].is_empty()) return Violation::undeclared;
-  if (objects_.size() >= settings_.object_max || federate.objects_registered >= settings_.objects_per_federate_max) return Violation::over_limit;
+  if (federate.objects_registered >= settings_.objects_per_federate_max) return Violation::over_limit;
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != federate.block * object_block + federate.objects_registered) return Violation::unknown_name;
   ++federate.objects_registered;
+  federate.name_bytes += message.name.size();
+  // Those who have more than their share are refused first, so nobody's hoard keeps others from theirs.
+  const bool is_full = objects_.size() >= settings_.object_max && federate.objects_registered > settings_.object_max / federate_count_;
+  if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max) return refuse_object(slot, {message.object}), std::nullopt;
   const bool has_name = message.name.empty() || take_name(slot, message.name);
   interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, has_name ? message.name : std::string_view()));
   return std::nullopt;
+}
+
+/// Its registrar hears that it is removed; what it says of it meanwhile is late and no crime.
+void FederationExecution::Parts::refuse_object(std::uint32_t slot, ObjectHandle object) {
+  objects_.pass_over(object);
+  say(federates_[slot].tail, RemoveObjectMessage{object.value});
 }
 
 Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& reader) {
@@ -208,9 +221,13 @@ Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, Inte
   if (!federates_[slot].published_interactions[message.interaction_class]) return Violation::undeclared;
   ++counters_.interactions_received;
   ++federates_[slot].counts.interactions_sent;
+  // Interactions are never held back, so a shouter would fill the queues of those who listen, and they would be closed instead of it.
+  const std::span<const std::uint32_t> receivers = groups_->receivers(message.interaction_class, slot);
+  if (!receivers.empty()) federates_[slot].said += interaction_head + message.parameters.size();
+  if (federates_[slot].said > settings_.interaction_bytes_per_flush_max) return Violation::over_limit;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;
-  for (const std::uint32_t receiver : groups_->receivers(message.interaction_class, slot)) {
+  for (const std::uint32_t receiver : receivers) {
     if (only != FederateHandle::none && federates_[receiver].handle.value != only) continue;
     if (!regions.empty() && !hears_everywhere(receiver, message.interaction_class) && !interest_.hears(receiver, message.interaction_class, slot, regions)) continue;
     say(federates_[receiver].tail, message);

@@ -35,6 +35,7 @@ const char* to_string(SynchronizationFailure failure) {
   switch (failure) {
     case SynchronizationFailure::label_not_unique: return "label not unique";
     case SynchronizationFailure::member_not_joined: return "a member of the set is not joined";
+    case SynchronizationFailure::over_limit: return "more points than a federate may have open";
   }
   return "unknown failure";
 }

@@ -28,6 +28,7 @@ HlaError error_of(Refusal refusal);
 enum class SynchronizationFailure : std::uint8_t {
   label_not_unique = 1,  ///< a point of that label has not been reached yet
   member_not_joined,     ///< the set names one who is not joined
+  over_limit,            ///< the federate has registered as many points as it may that are not reached yet; Rink's own, for the standard knows no limit
 };
 /// The standard's words, "label not unique".
 const char* to_string(SynchronizationFailure failure);

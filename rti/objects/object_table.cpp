@@ -35,7 +35,6 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
   } else {
     slot = free_.back();
     free_.pop_back();
-    objects_[slot] = {};
   }
   Object& object = objects_[slot];
   object.handle = handle;
@@ -45,10 +44,12 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
   object.name = name;
   object.fixed.resize(layouts_[object_class].fixed_size);
   if (layouts_[object_class].has_varying) object.varying.resize(layouts_[object_class].offsets.size());
-  const std::uint32_t block = handle.value / object_block, number = handle.value % object_block;
-  if (block >= slots_.size()) slots_.resize(block + 1);
-  if (number >= slots_[block].size()) slots_[block].resize(number + 1, never);
-  slots_[block][number] = slot;
+  const std::uint32_t number = handle.value % object_block;
+  Block& block = block_of(handle);
+  if (number >= block.slots.size()) block.slots.resize(number + 1, no_object);
+  block.slots[number] = slot;
+  block.registered = number + 1;
+  ++block.alive;
   ++size_;
   return slot;
 }
@@ -57,25 +58,41 @@ void ObjectTable::erase(ObjectSlot slot) {
   Object& object = objects_[slot];
   assert(object.is_alive);
   object.is_alive = false;
-  slots_[object.handle.value / object_block][object.handle.value % object_block] = gone;
+  Block& block = block_of(object.handle);
+  block.slots[object.handle.value % object_block] = no_object;
+  if (--block.alive == 0 && block.is_closed) block.slots = {};
   leaving_.push_back(slot);
   --size_;
 }
 
+ObjectTable::Block& ObjectTable::block_of(ObjectHandle handle) {
+  const std::size_t block = handle.value / object_block;
+  if (block >= blocks_.size()) blocks_.resize(block + 1);
+  return blocks_[block];
+}
+
+void ObjectTable::pass_over(ObjectHandle handle) { block_of(handle).registered = handle.value % object_block + 1; }
+
+void ObjectTable::close_block(std::uint32_t block) {
+  if (block >= blocks_.size()) return;
+  blocks_[block].is_closed = true;
+  if (blocks_[block].alive == 0) blocks_[block].slots = {};
+}
+
 void ObjectTable::recycle() {
+  for (const ObjectSlot slot : leaving_) objects_[slot] = {};  // with its name and values
   free_.insert(free_.end(), leaving_.begin(), leaving_.end());
   leaving_.clear();
 }
 
 ObjectSlot ObjectTable::find(ObjectHandle handle) const {
   const std::uint32_t block = handle.value / object_block, number = handle.value % object_block;
-  if (block >= slots_.size() || number >= slots_[block].size() || slots_[block][number] >= gone) return no_object;
-  return slots_[block][number];
+  return block < blocks_.size() && number < blocks_[block].slots.size() ? blocks_[block].slots[number] : no_object;
 }
 
 bool ObjectTable::was_registered(ObjectHandle handle) const {
   const std::uint32_t block = handle.value / object_block, number = handle.value % object_block;
-  return block < slots_.size() && number < slots_[block].size() && slots_[block][number] != never;
+  return block < blocks_.size() && number < blocks_[block].registered;
 }
 
 void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {

@@ -47,12 +47,17 @@ class ObjectTable {
   std::size_t size() const { return size_; }
   /// True if an object of this handle is or was here; handles are not used twice.
   bool was_registered(ObjectHandle handle) const;
+  /// The handle is used up without an object.
+  void pass_over(ObjectHandle handle);
+  /// No more objects come in `block`: its memory goes with the last of them.
+  void close_block(std::uint32_t block);
   /// Calls `visit(slot)` for each living object whose handle is in `block`.
   template <class Visit>
   void for_each_in_block(std::uint32_t block, Visit visit) const {
-    if (block >= slots_.size()) return;
-    for (std::size_t i = 0; i < slots_[block].size(); ++i)
-      if (slots_[block][i] < gone) visit(slots_[block][i]);
+    if (block >= blocks_.size()) return;
+    const std::vector<ObjectSlot>& slots = blocks_[block].slots;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (slots[i] != no_object) visit(slots[i]);
   }
 
   /// `coded` must be the values of `set` as they travel.
@@ -61,7 +66,13 @@ class ObjectTable {
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
 
  private:
-  static constexpr ObjectSlot never = no_object, gone = no_object - 1;
+  struct Block {
+    std::vector<ObjectSlot> slots;  ///< by number; no_object where there is none, any more or yet
+    std::uint32_t registered = 0;   ///< numbers below were used; they come in order
+    std::uint32_t alive = 0;
+    bool is_closed = false;
+  };
+  Block& block_of(ObjectHandle handle);
   struct Layout {
     std::vector<std::uint32_t> offsets;  ///< of fixed attributes
     std::uint32_t fixed_size = 0;
@@ -71,7 +82,7 @@ class ObjectTable {
   const Fom& fom_;
   std::vector<Object> objects_;
   std::vector<ObjectSlot> free_, leaving_;
-  std::vector<std::vector<ObjectSlot>> slots_;  ///< by block, then by number within it
+  std::vector<Block> blocks_;
   std::size_t size_ = 0;
 };
 

@@ -67,7 +67,7 @@ struct SynchronizationPointRegisteredMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, SynchronizationPointRegisteredMessage& message) {
-  return stream.text(message.label, text_max) && stream.range(message.failure, static_cast<std::uint64_t>(SynchronizationFailure::member_not_joined));
+  return stream.text(message.label, text_max) && stream.range(message.failure, static_cast<std::uint64_t>(SynchronizationFailure::over_limit));
 }
 
 struct AnnounceSynchronizationPointMessage {

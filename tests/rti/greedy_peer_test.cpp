@@ -75,5 +75,87 @@ TEST(GreedyPeer, HoweverOftenUpdatesAreRequestedTheirOwnerIsToldOncePerFlush) {
   EXPECT_TRUE(bare.dropped.empty());
 }
 
+TEST(GreedyPeer, PointsOfOneFederateLeaveTheOthersTheirs) {
+  Bare bare;
+  bare.enter(1, "hoarder");
+  std::vector<std::string> labels;
+  for (int i = 0; i < 300; ++i) labels.push_back("point " + std::to_string(i));
+  for (const std::string& label : labels) bare.execution.receive(1, frame_of(RegisterSynchronizationPointMessage{label, {}, {}}));
+  bare.tick();
+  bare.witness.register_synchronization_point("start", {});
+  bare.tick();
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Contains("registered start"));
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Contains("announced point 0"));
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Not(::testing::Contains("announced point 299")));
+  EXPECT_TRUE(bare.dropped.empty()) << "the others are refused by an answer";
+}
+
+TEST(GreedyPeer, PointsLeftBehindByThoseWhoComeAndGoDoNotGrowForEver) {
+  Bare bare;
+  for (int visit = 0; visit < 20; ++visit) {
+    bare.enter(1, "visitor");
+    for (int i = 0; i < 60; ++i) {
+      const std::string label = std::to_string(visit) + ":" + std::to_string(i);
+      bare.execution.receive(1, frame_of(RegisterSynchronizationPointMessage{label, {}, {}}));
+    }
+    bare.execution.receive(1, frame_of(ResignMessage{}));
+    bare.tick();
+  }
+  Recorder heard;
+  Ambassador newcomer(harbour(), heard);
+  bare.sent.clear();
+  bare.enter(1, "newcomer");
+  newcomer.join("rink", "newcomer", "tester");
+  EXPECT_TRUE(newcomer.receive(bare.sent[1]));
+  EXPECT_EQ(std::ranges::count_if(heard.log, [](const std::string& each) { return each.starts_with("announced"); }), 256);
+}
+
+TEST(GreedyPeer, AHoardOfObjectsLeavesTheOthersTheirShare) {
+  Bare bare(with(&FederationSettings::object_max, 100));
+  bare.enter(1, "hoarder");
+  bare.execution.receive(1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
+  const auto hoard = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t i = from; i < to; ++i) bare.execution.receive(1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, ""}));
+  };
+  hoard(0, 100);
+  for (int i = 0; i < 40; ++i) bare.witness.register_object_instance(vessel);
+  bare.tick();
+  EXPECT_EQ(bare.execution.object_count(), 140u);
+  bare.sent.clear();
+  hoard(100, 110);
+  bare.execution.receive(1, frame_of(DeleteObjectMessage{villains_first + 105}));  // it could not know
+  bare.tick();
+  EXPECT_EQ(bare.execution.object_count(), 140u);
+  EXPECT_EQ(bare.sent[1].size(), frame_header_size + 10 * size_of(RemoveObjectMessage{villains_first})) << "it is told so";
+  EXPECT_TRUE(bare.dropped.empty());
+}
+
+TEST(GreedyPeer, NamesOfOneFederatesObjectsAreBounded) {
+  Bare bare(with(&FederationSettings::name_bytes_per_federate_max, 1000));
+  bare.enter(1, "verbose");
+  bare.execution.receive(1, frame_of(PublishObjectClassMessage{vessel_number, AttributeSet{position, speed}.bits}));
+  const std::string name(100, 'x');
+  for (std::uint32_t i = 0; i < 20; ++i) bare.execution.receive(1, frame_of(RegisterObjectMessage{villains_first + i, vessel_number, name}));
+  bare.tick();
+  EXPECT_EQ(bare.execution.object_count(), 10u);
+  EXPECT_TRUE(bare.dropped.empty());
+}
+
+TEST(GreedyPeer, AShouterGoesBeforeThoseWhoListen) {
+  Bare bare;
+  bare.witness.subscribe_interaction_class(hail);
+  bare.enter(1, "shouter");
+  bare.execution.receive(1, frame_of(PublishInteractionClassMessage{static_cast<std::uint16_t>(hail.value), 1}));
+  bare.tick();
+  const std::vector<std::byte> words(32'000);
+  const std::size_t before = bare.witness_bytes;
+  for (int i = 0; i < 1000; ++i) bare.execution.receive(1, frame_of(InteractionMessage{static_cast<std::uint16_t>(hail.value), FederateHandle::none, {}, words}));
+  bare.tick();
+  EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+  EXPECT_LT(bare.witness_bytes - before, 600'000u);
+  EXPECT_EQ(bare.witness_heard.lost, "");
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
