@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
@@ -14,6 +15,7 @@ class FederationDirectory::Usher final : public Outlet {
  public:
   Usher(FederationDirectory& directory, Outlet& outlet) : directory_(directory), outlet_(outlet) {}
   void send(ConnectionId connection, std::span<const Bytes> parts) override { outlet_.send(connection, parts); }
+  std::size_t waiting_bytes(ConnectionId connection) const override { return outlet_.waiting_bytes(connection); }
   std::size_t datagram_max(ConnectionId connection) const override { return outlet_.datagram_max(connection); }
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override { outlet_.send_datagrams(connection, datagrams); }
   void drop(ConnectionId connection, std::string_view why) override {
@@ -76,7 +78,6 @@ void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || !connections_[id].is_connected) return;
   Connection& connection = connections_[id];
   if (connection.execution != nullptr) return connection.execution->receive(id, bytes);
-  connection.has_spoken = true;
   connection.waiting.insert(connection.waiting.end(), bytes.begin(), bytes.end());
   if (!take_waiting(id)) drop(id);
 }
@@ -93,6 +94,7 @@ bool FederationDirectory::take_waiting(ConnectionId id) {
     if (size == 0 || size > frame_max_to_join) return false;
     if (rest.size() < frame_header_size + size) break;
     const Bytes frame = rest.subspan(frame_header_size, size);
+    connection.has_spoken = true;  // by a whole frame: one byte now and then says nothing
     const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
     if (is_join ? !lead(id, frame) : !take_frame(id, frame)) return false;
     if (!is_join) taken += frame_header_size + size;
@@ -107,7 +109,9 @@ bool FederationDirectory::take_waiting(ConnectionId id) {
 
 bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
   Reader reader(frame);
+  Questions& questions = connections_[id].questions;
   while (!reader.is_at_end()) {
+    if (!questions.ask()) return false;
     std::uint8_t kind = 0;
     reader.number(kind);
     CreateFederationExecutionMessage creation;
@@ -122,10 +126,13 @@ bool FederationDirectory::take_frame(ConnectionId id, Bytes frame) {
         answer(id, FederationExecutionDestroyedMessage{destruction.federation, static_cast<std::uint8_t>(destroy(destruction.federation))});
         break;
       case MessageKind::list_federation_executions:
+        if (std::exchange(questions.wants_list, true)) break;
         for (const FederationExecutionInformation& each : list()) answer(id, FederationExecutionMessage{0, each.federation, each.model, each.federates});
         answer(id, FederationExecutionMessage{1, {}, {}, 0});
         break;
-      case MessageKind::query_management: management_queries_.push_back(id); break;
+      case MessageKind::query_management:
+        if (!std::exchange(questions.wants_report, true)) management_queries_.push_back(id);
+        break;
       default: return false;
     }
   }
@@ -152,7 +159,9 @@ void FederationDirectory::refuse(ConnectionId id, Refusal refusal) {
 
 template <class Message>
 void FederationDirectory::answer(ConnectionId id, Message message) {
-  answers_.push_back({id, framed(message)});
+  if (answers_.empty() || answers_.back().connection != id || answers_.back().is_last) answers_.push_back({id, {}});
+  const std::vector<std::byte> bytes = framed(message);
+  answers_.back().bytes.insert(answers_.back().bytes.end(), bytes.begin(), bytes.end());
 }
 
 void FederationDirectory::drop(ConnectionId id) {
@@ -199,6 +208,7 @@ void FederationDirectory::answer_queries(Outlet& outlet) {
   for (const auto& execution : executions_) for_each_message(execution->report(&outlet), append);
   append(ReportEndMessage{});
   const Bytes bytes = frame.bytes();
+  for (const ConnectionId id : management_queries_) connections_[id].questions = {};
   for (const ConnectionId id : management_queries_)
     if (connections_[id].is_connected) outlet.send(id, std::span(&bytes, 1));
   management_queries_.clear();
@@ -208,6 +218,7 @@ void FederationDirectory::flush(Outlet& outlet) {
   for (const Answer& each : answers_) {
     const Bytes bytes = each.bytes;
     if (!bytes.empty()) outlet.send(each.connection, std::span(&bytes, 1));
+    connections_[each.connection].questions = {};
     if (each.is_last) outlet.drop(each.connection, "it broke the protocol or was refused");
   }
   answers_.clear();

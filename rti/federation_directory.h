@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rti/federation_execution.h"
+#include "rti/questions.h"
 
 namespace rink::rti {
 
@@ -53,6 +54,7 @@ class FederationDirectory final : public CentralComponent {
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
     std::vector<std::byte> waiting;            ///< what came before that and is no whole frame
     double last_heard = 0.0;
+    Questions questions;
   };
   struct Answer {
     ConnectionId connection;

@@ -1,5 +1,6 @@
 // Synchronisation points, and the answers to those who have not joined.
 #include <algorithm>
+#include <utility>
 
 #include "rti/federation_parts.h"
 
@@ -97,14 +98,22 @@ void FederationExecution::Parts::complete_points() {
 
 template <class Message>
 void FederationExecution::Parts::answer(ConnectionId connection, Message message) {
-  answers_.push_back({connection, {}, framed(message)});
+  if (answers_.empty() || answers_.back().connection != connection) answers_.push_back({connection, {}, {}});
+  const std::vector<std::byte> frame = framed(message);
+  answers_.back().bytes.insert(answers_.back().bytes.end(), frame.begin(), frame.end());
+}
+
+void FederationExecution::Parts::query_management(ConnectionId connection) {
+  if (!std::exchange(connections_[connection].questions.wants_report, true)) management_queries_.push_back(connection);
 }
 
 void FederationExecution::Parts::send_answers(Outlet& outlet) {
   for (const Farewell& each : answers_) {
     const Bytes bytes = each.bytes;
     outlet.send(each.connection, std::span(&bytes, 1));
+    connections_[each.connection].questions = {};
   }
+  for (const ConnectionId each : management_queries_) connections_[each].questions = {};
   answers_.clear();
   answer_queries(outlet);
 }
@@ -113,6 +122,8 @@ void FederationExecution::Parts::send_answers(Outlet& outlet) {
 Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader) {
   CreateFederationExecutionMessage creation;
   DestroyFederationExecutionMessage destruction;
+  Questions& questions = connections_[connection].questions;
+  if (!questions.ask()) return Violation::over_limit;
   switch (kind) {
     case MessageKind::create_federation_execution: {
       if (!exchange(reader, creation)) return Violation::malformed;
@@ -127,9 +138,10 @@ Outcome FederationExecution::Parts::answer_stranger(ConnectionId connection, Mes
       return answer(connection, FederationExecutionDestroyedMessage{destruction.federation, error}), std::nullopt;
     }
     case MessageKind::list_federation_executions:
+      if (std::exchange(questions.wants_list, true)) return std::nullopt;
       answer(connection, FederationExecutionMessage{0, settings_.federation, fom_.name(), static_cast<std::uint32_t>(federate_count_)});
       return answer(connection, FederationExecutionMessage{1, {}, {}, 0}), std::nullopt;
-    case MessageKind::query_management: return management_queries_.push_back(connection), std::nullopt;
+    case MessageKind::query_management: return query_management(connection), std::nullopt;
     default: return Violation::wrong_phase;
   }
 }

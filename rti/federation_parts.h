@@ -11,6 +11,7 @@
 #include "rti/federation_execution.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation_services.h"
+#include "rti/questions.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/object_block.h"
@@ -64,6 +65,7 @@ class FederationExecution::Parts {
     Phase phase = Phase::unknown;
     std::uint32_t federate = 0;  ///< slot, once joined
     bool has_spoken = false;     ///< since the last `advance_clock`
+    Questions questions;
     double last_heard = 0.0;
     FrameReader reader;
   };
@@ -103,6 +105,7 @@ class FederationExecution::Parts {
   Outcome answer_stranger(ConnectionId connection, MessageKind kind, Reader& reader);
   template <class Message>
   void answer(ConnectionId connection, Message message);
+  void query_management(ConnectionId connection);
   void send_answers(Outlet& outlet);
   FederationReport report(const Outlet* outlet) const;
   std::vector<std::uint32_t> count_owned() const;

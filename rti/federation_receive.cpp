@@ -14,7 +14,8 @@ constexpr std::size_t interaction_head = 16;
 void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();
-  connections_[id].has_spoken = true;
+  // A stranger's frame counts when it is whole: one byte now and then says nothing.
+  connections_[id].has_spoken |= connections_[id].phase == Phase::joined;
   if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].counts.bytes_sent += bytes.size();
   // The reader leaves its connection meanwhile: dropping the connection must not pull it from under our feet.
   FrameReader reader = std::move(connections_[id].reader);
@@ -32,6 +33,7 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
 
 Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   ++counters_.frames_received;
+  connections_[id].has_spoken = true;
   if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].stamp.reset();  // a stamp is good for its frame
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
@@ -62,7 +64,7 @@ Outcome FederationExecution::Parts::take_message(ConnectionId id, std::uint32_t 
     case MessageKind::register_synchronization_point: return register_point(reader, slot);
     case MessageKind::synchronization_point_achieved: return achieve_point(reader, slot);
     case MessageKind::watch_federates: return watch(federates_[slot]);
-    case MessageKind::query_management: return management_queries_.push_back(id), std::nullopt;
+    case MessageKind::query_management: return query_management(id), std::nullopt;
     case MessageKind::publish_object_class:
     case MessageKind::subscribe_object_class:
     case MessageKind::publish_interaction_class:

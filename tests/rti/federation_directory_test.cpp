@@ -4,6 +4,7 @@
 
 #include "rti/federation_directory.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/management_messages.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -174,6 +175,20 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
   directory.flush(drain);
   EXPECT_THAT(drain.dropped, Contains(0u));
   EXPECT_EQ(directory.drops(), crimes.size() + 1);
+}
+
+TEST(FederationDirectory, AStrangersQuestionsAreAnsweredOnceAFlushAndItGoesIfItAsksTooMuch) {
+  FederationDirectory directory;
+  Drain drain;
+  const auto list = framed(ListFederationExecutionsMessage{}), query = framed(QueryManagementMessage{});
+  directory.connect(0);
+  for (int i = 0; i < 20; ++i) directory.receive(0, list), directory.receive(0, query);
+  directory.flush(drain);
+  EXPECT_EQ(drain.sent[0].size(), framed(FederationExecutionMessage{1, {}, {}, 0}).size() + framed(ReportEndMessage{}).size());
+  EXPECT_TRUE(drain.dropped.empty());
+  for (int i = 0; i < 1000; ++i) directory.receive(0, list);
+  directory.flush(drain);
+  EXPECT_THAT(drain.dropped, ElementsAre(0u));
 }
 
 }  // namespace

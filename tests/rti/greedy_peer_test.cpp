@@ -157,5 +157,38 @@ TEST(GreedyPeer, AShouterGoesBeforeThoseWhoListen) {
   EXPECT_EQ(bare.witness_heard.lost, "");
 }
 
+TEST(GreedyPeer, AStrangersQuestionsAreAnsweredOnceAFlushAndItGoesIfItAsksTooMuch) {
+  Bare bare;
+  bare.execution.connect(1);
+  const auto ask = frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{}, CreateFederationExecutionMessage{"mine", 0});
+  bare.execution.receive(1, ask);
+  bare.tick();
+  const std::size_t answer = bare.sent[1].size();
+  EXPECT_GT(answer, 0u);
+  bare.sent.clear();
+  bare.sends.clear();
+  for (int i = 0; i < 20; ++i) bare.execution.receive(1, frame_of(ListFederationExecutionsMessage{}, QueryManagementMessage{}));
+  bare.tick();
+  EXPECT_LE(bare.sends[1], 2) << "one for the list, one for the report";
+  EXPECT_LT(bare.sent[1].size(), answer) << "the same, without the creation's";
+  EXPECT_TRUE(bare.dropped.empty());
+  for (int i = 0; i < 1000; ++i) bare.execution.receive(1, frame_of(ListFederationExecutionsMessage{}));
+  bare.tick();
+  EXPECT_EQ(bare.drops(Violation::over_limit), 1u);
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+}
+
+TEST(GreedyPeer, AStrangerWhoSaysOneByteNowAndThenIsSilent) {
+  Bare bare;
+  bare.execution.connect(1);
+  auto slow = frame_of(join_of("slow"));
+  for (int second = 0; second < 8; ++second) {
+    bare.execution.receive(1, Bytes(slow).subspan(static_cast<std::size_t>(second), 1));
+    bare.pass(second);
+  }
+  EXPECT_EQ(bare.drops(Violation::silent), 1u);
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
