@@ -53,6 +53,12 @@ bool is_same_user(int socket) {
   return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == ::geteuid();
 }
 
+/// False for a file that knows no seals.
+bool is_sealed(int file) {
+  const int seals = ::fcntl(file, F_GET_SEALS);
+  return seals >= 0 && (seals & F_SEAL_SHRINK) != 0;
+}
+
 }  // namespace
 
 Mapping::Mapping(int file, std::size_t size) : size_(size) {
@@ -79,6 +85,7 @@ void SharedMemoryTransport::Core::listen(const std::string& name) {
   }
   listening_.push_back(std::move(file));
   readiness_.watch(listening_.back().number(), listener_mark + listening_.size() - 1, false);
+  if (!spare_) spare_ = File(::open("/dev/null", O_RDONLY | O_CLOEXEC));
 }
 
 ConnectionId SharedMemoryTransport::Core::connect(const std::string& name) {
@@ -89,6 +96,8 @@ ConnectionId SharedMemoryTransport::Core::connect(const std::string& name) {
   if (::connect(peer.socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0) {
     const int error = errno;
     end(connection, error == ECONNREFUSED || error == ENOENT ? CloseReason::refused : CloseReason::failed, "can't connect to shared-memory address '" + name + "': " + std::strerror(error));
+  } else if (!is_same_user(peer.socket.number())) {
+    end(connection, CloseReason::refused, "shared-memory address '" + name + "' is another user's");  // anybody may take an abstract name
   } else {
     readiness_.watch(peer.socket.number(), connection, false);
   }
@@ -105,12 +114,22 @@ ConnectionId SharedMemoryTransport::Core::add(File socket) {
 void SharedMemoryTransport::Core::accept(std::size_t listening) {
   for (;;) {
     File file(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (!file && (errno == EMFILE || errno == ENFILE) && turn_away(listening)) continue;
     if (!file) return;
     if (!is_same_user(file.number())) continue;
     const ConnectionId connection = add(std::move(file));
     if (offer_memory(connection)) readiness_.watch(peers_[connection]->socket.number(), connection, false);
     else peers_[connection].reset();  // never open, so nobody is told
   }
+}
+
+/// Out of files: the one kept for this lets whoever waits in and out again. Otherwise its waiting would wake us at once and for ever.
+bool SharedMemoryTransport::Core::turn_away(std::size_t listening) {
+  if (!spare_) return false;
+  spare_.close();
+  const bool is_away = File(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_CLOEXEC)).number() >= 0;
+  spare_ = File(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  return is_away;
 }
 
 /// The server makes the memory and seals its size, so that neither end can be made to touch what is not there.
@@ -163,7 +182,7 @@ void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
   struct stat is {};
   const bool fits = size == sizeof greeting && greeting.magic == magic && greeting.version == 1 && std::has_single_bit(greeting.ring_size) && greeting.ring_size >= ring_min &&
                     greeting.ring_size <= ring_max && file && ::fstat(file.number(), &is) == 0 && static_cast<std::size_t>(is.st_size) == segment_size(greeting.ring_size) &&
-                    (::fcntl(file.number(), F_GET_SEALS) & F_SEAL_SHRINK) != 0;
+                    is_sealed(file.number());
   Mapping memory = fits ? Mapping(file.number(), segment_size(greeting.ring_size)) : Mapping();
   if (memory.data() == nullptr) return end(connection, CloseReason::failed, "no shared memory from '" + peers_[connection]->place + "'");
   opened(connection, std::move(memory), greeting.ring_size, false);

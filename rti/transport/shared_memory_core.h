@@ -66,6 +66,7 @@ class SharedMemoryTransport::Core {
   Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
   ConnectionId add(File socket);
   void accept(std::size_t listening);
+  bool turn_away(std::size_t listening);
   bool offer_memory(ConnectionId connection);
   void take_memory(ConnectionId connection);
   void opened(ConnectionId connection, Mapping memory, std::size_t ring_size, bool is_server);
@@ -84,6 +85,7 @@ class SharedMemoryTransport::Core {
   SharedMemorySettings settings_;
   Readiness readiness_;
   std::vector<File> listening_;
+  File spare_;  ///< a server's, for when there are no more files
   std::vector<std::unique_ptr<Peer>> peers_;   ///< by connection; null once closed
   std::vector<ConnectionId> open_;             ///< those with rings
   std::vector<TransportCounters> counters_;    ///< by connection

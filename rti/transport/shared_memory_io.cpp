@@ -76,6 +76,7 @@ void SharedMemoryTransport::Core::take_socket(ConnectionId connection) {
   const ssize_t size = ::recv(peer->socket.number(), wakes_of_peer.data(), wakes_of_peer.size(), MSG_DONTWAIT);
   if (size > 0 || (size < 0 && (errno == EAGAIN || errno == EINTR))) return;
   report();  // that it opened, if it came and went since
+  if (find(connection) == nullptr) return;  // a callback closed it
   read(connection);
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_peer, "closed by peer");
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <sys/wait.h>
@@ -118,13 +119,18 @@ TEST(SharedMemory, AKilledProcessIsNoticedWithinASecondAndLeavesNothingBehind) {
   for (std::string line; std::getline(maps, line);) EXPECT_EQ(line.find("memfd:rink"), std::string::npos) << "the memory has no name, and ends with its last mapping: " << line;
 }
 
+std::pair<sockaddr_un, socklen_t> abstract_address(const std::string& name) {
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  const std::string whole = "rink/" + name;
+  std::memcpy(address.sun_path + 1, whole.data(), whole.size());
+  return {address, static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + whole.size())};
+}
+
 /// A client by hand, with the server's memory in its hands.
 struct HostileClient {
   explicit HostileClient(const std::string& name) : socket(::socket(AF_UNIX, SOCK_STREAM, 0)) {
-    sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
-    const std::string whole = "rink/" + name;
-    std::memcpy(address.sun_path + 1, whole.data(), whole.size());
-    EXPECT_EQ(::connect(socket.number(), reinterpret_cast<sockaddr*>(&address), static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + whole.size())), 0);
+    const auto [address, size] = abstract_address(name);
+    EXPECT_EQ(::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
   }
   void take_memory() {
     std::array<std::byte, 64> greeting;
@@ -207,6 +213,118 @@ TEST(SharedMemory, RandomNonsenseInTheSharedPageNeverCrashesTheServer) {
     tale.bytes.clear();
   }
   SUCCEED();
+}
+
+/// Listens at `name` by hand.
+File hostile_listener(const std::string& name) {
+  File socket(::socket(AF_UNIX, SOCK_STREAM, 0));
+  const auto [address, size] = abstract_address(name);
+  EXPECT_EQ(::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
+  EXPECT_EQ(::listen(socket.number(), 4), 0);
+  return socket;
+}
+
+TEST(SharedMemory, AServerWhoseMemoryCouldShrinkIsNotBelieved) {
+  const std::string name = own_name("unsealed");
+  const File listener = hostile_listener(name);
+  SharedMemoryTransport client;
+  Tale tale;
+  client.connect(name);
+  const File socket(::accept(listener.number(), nullptr, nullptr));
+  std::FILE* file = std::tmpfile();  // knows no seals at all
+  ASSERT_NE(file, nullptr);
+  ASSERT_EQ(::ftruncate(::fileno(file), 4096 + 2 * 4096), 0);
+  struct {
+    std::uint32_t magic = 0x4d534b52, version = 1;
+    std::uint64_t ring_size = 4096;
+  } greeting;
+  iovec vector{&greeting, sizeof greeting};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
+  msghdr header{};
+  header.msg_iov = &vector;
+  header.msg_iovlen = 1;
+  header.msg_control = control;
+  header.msg_controllen = sizeof control;
+  *CMSG_FIRSTHDR(&header) = {.cmsg_len = CMSG_LEN(sizeof(int)), .cmsg_level = SOL_SOCKET, .cmsg_type = SCM_RIGHTS};
+  const int number = ::fileno(file);
+  std::memcpy(CMSG_DATA(CMSG_FIRSTHDR(&header)), &number, sizeof number);
+  ASSERT_GT(::sendmsg(socket.number(), &header, 0), 0);
+  for (int i = 0; i < 100 && tale.closed == 0; ++i) client.poll(1ms, tale);
+  EXPECT_TRUE(tale.open.empty());
+  EXPECT_EQ(tale.closed, 1);
+  EXPECT_EQ(tale.reason, CloseReason::failed);
+  std::fclose(file);
+}
+
+TEST(SharedMemory, AnotherUsersServerIsRefused) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
+  const std::string name = own_name("stranger");
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const File listener = ::setuid(65534) == 0 ? hostile_listener(name) : File();
+    if (::write(ready[1], "x", 1) == 1) ::pause();
+    _exit(0);
+  }
+  char ignored = 0;
+  ASSERT_EQ(::read(ready[0], &ignored, 1), 1);
+  SharedMemoryTransport client;
+  Tale tale;
+  client.connect(name);
+  for (int i = 0; i < 100 && tale.closed == 0; ++i) client.poll(1ms, tale);
+  EXPECT_EQ(tale.closed, 1);
+  EXPECT_EQ(tale.reason, CloseReason::refused);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  ::close(ready[0]), ::close(ready[1]);
+}
+
+TEST(SharedMemory, ACallbackMayCloseAConnectionWhosePeerHasJustGone) {
+  const std::string name = own_name("crossing");
+  SharedMemoryTransport server;
+  struct Jealous final : TransportListener {
+    SharedMemoryTransport* server = nullptr;
+    std::vector<ConnectionId> open;
+    int closed = 0;
+    void on_open(ConnectionId connection) override {
+      for (const ConnectionId other : open) server->close(other);
+      open = {connection};
+    }
+    void on_bytes(ConnectionId, Bytes) override {}
+    void on_close(ConnectionId, CloseReason, const std::string&) override { ++closed; }
+  } jealous;
+  jealous.server = &server;
+  server.listen(name);
+  for (int round = 0; round < 20; ++round) {
+    auto first = std::make_unique<HostileClient>(name);
+    for (int i = 0; i < 8; ++i) server.poll({}, jealous);
+    const HostileClient second(name);
+    first.reset();  // its end is told in the same breath as the second's beginning
+    for (int i = 0; i < 8; ++i) server.poll({}, jealous);
+  }
+  EXPECT_GE(jealous.closed, 39);
+}
+
+TEST(SharedMemory, WhoComesWhenThereAreNoMoreFilesIsTurnedAwayAtOnce) {
+  const std::string name = own_name("full");
+  SharedMemoryTransport server;
+  Tale tale;
+  server.listen(name);
+  HostileClient client(name);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const int next = ::dup(client.socket.number());
+  ::close(next);
+  const rlimit none_left{.rlim_cur = static_cast<rlim_t>(next), .rlim_max = limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none_left), 0);
+  for (int i = 0; i < 8; ++i) server.poll({}, tale);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+  std::byte anything{};
+  EXPECT_EQ(::recv(client.socket.number(), &anything, 1, MSG_DONTWAIT), 0) << "closed";
+  const HostileClient later(name);
+  for (int i = 0; i < 8; ++i) server.poll({}, tale);
+  EXPECT_EQ(tale.open.size(), 1u);
 }
 
 TEST(SharedMemory, ASecondListenerOfANameIsToldSo) {
