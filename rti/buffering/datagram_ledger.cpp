@@ -28,6 +28,23 @@ void DatagramLedger::drop_oldest() {
   if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
 }
 
+/// From the newest back to the oldest, so that what later ones say of the same objects is gathered once, however many are lost. Rare, so it may gather.
+template <class IsLost>
+void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
+  std::unordered_map<std::uint32_t, std::uint32_t> said_later;
+  for (std::uint32_t number = next_ - 1; number != oldest() - 1; --number) {
+    Entry& entry = at(number);
+    const bool is_given_up = !entry.is_settled && is_lost(number);
+    entry.is_settled |= is_given_up;
+    for_each_said(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
+      std::uint32_t& later = said_later[handle];
+      const AttributeSet missing(set.bits & ~later);
+      if (is_given_up && !missing.is_empty()) lost.push_back({handle, missing});
+      later |= set.bits;
+    });
+  }
+}
+
 bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost) {
   if (message.newest == 0 || message.newest >= next_) return false;
   unanswered_since_.reset();
@@ -35,11 +52,13 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
     const double trip_s = now - at(message.newest).sent_s;
     smoothed_s_ = std::max(trip_s, 0.875 * smoothed_s_ + 0.125 * trip_s);
   }
+  bool is_overtaken = false;
   for (std::uint32_t number = oldest(); number != next_ && number <= message.newest; ++number) {
     if (at(number).is_settled) continue;
     if (message.has(number)) at(number).is_settled = true;
-    else if (message.newest - number >= overtaken_by) lose(number, lost);
+    else is_overtaken |= message.newest - number >= overtaken_by;
   }
+  if (is_overtaken) lose([&](std::uint32_t number) { return number <= message.newest && message.newest - number >= overtaken_by; }, lost);
   forget_settled();
   if (size_ > 0) unanswered_since_ = now;
   return true;
@@ -48,30 +67,14 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
 void DatagramLedger::expire(double now, std::vector<Lost>& lost) {
   const double patience_s = 0.1 + DatagramReceipts::longest_delay_s + 2.0 * smoothed_s_;
   if (size_ == 0 || now - oldest_sent_s_ <= patience_s) return;
-  for (std::uint32_t number = oldest(); number != next_ && now - at(number).sent_s > patience_s; ++number)
-    if (!at(number).is_settled) lose(number, lost);
+  lose([&](std::uint32_t number) { return now - at(number).sent_s > patience_s; }, lost);
   forget_settled();
 }
 
 void DatagramLedger::abandon(std::vector<Lost>& lost) {
-  for (std::uint32_t number = oldest(); number != next_; ++number)
-    if (!at(number).is_settled) lose(number, lost);
+  lose([](std::uint32_t) { return true; }, lost);
   forget_settled();
   unanswered_since_.reset();
-}
-
-void DatagramLedger::lose(std::uint32_t number, std::vector<Lost>& lost) {
-  Entry& entry = at(number);
-  entry.is_settled = true;
-  // Rare, so it may search: what later datagrams say of the same objects is looked up only when one is lost.
-  std::unordered_map<std::uint32_t, std::uint32_t> said_later;
-  for (std::uint32_t later = number + 1; later != next_; ++later)
-    for_each_said(groups(at(later)), [&](std::uint32_t handle, AttributeSet set) { said_later[handle] |= set.bits; });
-  for_each_said(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
-    const auto found = said_later.find(handle);
-    const std::uint32_t missing = found == said_later.end() ? set.bits : set.bits & ~found->second;
-    if (missing != 0) lost.push_back({handle, AttributeSet(missing)});
-  });
 }
 
 void DatagramLedger::forget_settled() {

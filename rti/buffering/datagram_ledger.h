@@ -53,7 +53,9 @@ class DatagramLedger {
   std::uint32_t oldest() const { return next_ - static_cast<std::uint32_t>(size_); }
   Bytes groups(const Entry& entry) const { return entry.said == SaidLists::none ? Bytes() : lists_->groups(entry.said); }
   void drop_oldest();
-  void lose(std::uint32_t number, std::vector<Lost>& lost);
+  /// Of those that were given up: `is_lost(number)`, asked of all unsettled ones from the newest back to the oldest.
+  template <class IsLost>
+  void lose(IsLost is_lost, std::vector<Lost>& lost);
   void forget_settled();
 
   SaidLists* lists_;
