@@ -47,6 +47,9 @@ struct FederationSettings {
   std::size_t name_bytes_per_federate_max = 8u << 20;           ///< of all the objects that it ever registers
   std::size_t interaction_bytes_per_flush_max = 512u << 10;     ///< that one federate says to others between two flushes, 16 for each and its parameters
   std::uint32_t timed_max = 1u << 20;       ///< messages in time-stamp order that wait for somebody, or can still be taken back
+  std::size_t timed_bytes_max = 256u << 20; ///< of what they say
+  std::uint32_t timed_per_federate_max = 1u << 18;              ///< of those that their sender can still take back
+  std::size_t timed_bytes_per_federate_max = 64u << 20;         ///< likewise
   Patience patience;
   std::uint32_t keyframe_period = 1;        ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")
 };

@@ -94,31 +94,69 @@ Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reade
   message.number = wire.number;
   message.stamp = wire.stamp;
   if (const Outcome outcome = read_content(slot, wire.content, message)) {
+    message.body.clear();
     release(index);
     return outcome;
   }
   from.next_number = wire.number + 1;
-  if (from.sent.size() >= from.compact_at) forget_final(slot);
   from.sent.push_back({wire.number, index});
+  from.bytes += message.body.size();
+  bytes_ += message.body.size();
   message.is_retractable = true;
   arrived_.push_back(index);
   ++parts_.counters_.timed_received;
-  return std::nullopt;
+  if (from.sent.size() < from.compact_at && from.bytes < from.compact_bytes_at) return std::nullopt;
+  forget_final(slot);
+  return is_greedy(from) ? Violation::over_limit : Outcome();
 }
 
-bool FederationExecution::Parts::Time::is_full() const { return messages_.size() - free_.size() >= parts_.settings_.timed_max; }
+bool FederationExecution::Parts::Time::is_full() const {
+  return messages_.size() - free_.size() >= parts_.settings_.timed_max || bytes_ >= parts_.settings_.timed_bytes_max;
+}
 
-/// Forgets what nobody can ask for any more. If that is not enough: who never asks for what waits for it must not cost the others the federate that they all listen to.
+/// What a federate can still take back is there by its own doing: it says more than it lets time pass.
+bool FederationExecution::Parts::Time::is_greedy(const Sender& sender) const {
+  return sender.sent.size() > parts_.settings_.timed_per_federate_max || sender.bytes > parts_.settings_.timed_bytes_per_federate_max;
+}
+
+/// Forgets what nobody can ask for any more. If that is not enough, whoever holds most of it up must go: it must not cost the others the federate that they all listen to, nor
+/// those who wait their place.
 void FederationExecution::Parts::Time::make_room(std::uint32_t speaker) {
   for (std::uint32_t slot = 0; slot < senders_.size(); ++slot) forget_final(slot);
-  if (!is_full()) return;
-  std::vector<std::size_t> waiting(parts_.federates_.size());
-  for (const Message& message : messages_)
-    for (const Message::Receiver& each : message.receivers)
-      if (each.is_waiting) ++waiting[parts_.slot_of_handle_[each.federate.value]];
-  const auto slowest = static_cast<std::uint32_t>(std::ranges::max_element(waiting) - waiting.begin());
-  if (slowest == speaker || waiting[slowest] == 0) return;
-  parts_.expel(parts_.federates_[slowest].connection, Violation::over_limit, ResignReason::lost, "more waits for its time than the federation keeps");
+  while (is_full()) {
+    const std::uint32_t culprit = find_culprit();
+    if (culprit == speaker || culprit == no_federate) return;
+    parts_.expel(parts_.federates_[culprit].connection, Violation::over_limit, ResignReason::lost, "more waits for its time than the federation keeps");
+    if (is_full()) settle();  // what it held up
+  }
+}
+
+/// A message that can still be taken back is there for its sender's sake. One that waits in time for its receiver's next request is there for the receiver's; one that could not be
+/// delivered if it asked is there for the sake of the regulating federate that is furthest behind.
+std::uint32_t FederationExecution::Parts::Time::find_culprit() const {
+  const auto count = static_cast<std::uint32_t>(parts_.federates_.size());
+  std::vector<std::size_t> blamed(count);
+  std::vector<double> galt(count);
+  std::uint32_t last = no_federate;
+  for (std::uint32_t slot = 0; slot < count; ++slot) {
+    if (!parts_.federates_[slot].is_joined) continue;
+    galt[slot] = management_->galt(slot);
+    if (management_->is_regulating(slot) && (last == no_federate || management_->earliest(slot) < management_->earliest(last))) last = slot;
+  }
+  for (const Message& message : messages_) {
+    const std::size_t weight = sizeof message + message.body.size();
+    if (message.is_retractable) {
+      blamed[parts_.slot_of_handle_[message.sender.value]] += weight;
+      continue;
+    }
+    for (const Message::Receiver& each : message.receivers) {
+      const std::uint32_t receiver = each.is_waiting ? parts_.slot_of_handle_[each.federate.value] : no_federate;
+      const std::uint32_t culprit = receiver == no_federate || message.stamp.time < galt[receiver] ? receiver : last;
+      if (culprit != no_federate) blamed[culprit] += weight;
+    }
+  }
+  const auto worst = std::ranges::max_element(blamed);
+  return worst == blamed.end() || *worst == 0 ? no_federate : static_cast<std::uint32_t>(worst - blamed.begin());
 }
 
 Outcome FederationExecution::Parts::Time::read_content(std::uint32_t slot, Bytes bytes, Message& message) {
@@ -191,11 +229,14 @@ void FederationExecution::Parts::Time::forget_final(std::uint32_t slot) {
   const double earliest = management_->earliest(slot);
   std::erase_if(from.sent, [&](const Sent& each) {
     if (messages_[each.message].stamp.time >= earliest) return false;
+    from.bytes -= messages_[each.message].body.size();
     messages_[each.message].is_retractable = false;
     finish(each.message);
     return true;
   });
-  from.compact_at = std::max<std::size_t>(64, 2 * from.sent.size());
+  // Seldom, and in any case where the sender's limit is passed.
+  from.compact_at = std::min(std::max<std::size_t>(64, 2 * from.sent.size()), parts_.settings_.timed_per_federate_max + std::size_t{1});
+  from.compact_bytes_at = std::min(std::max<std::size_t>(1u << 20, 2 * from.bytes), parts_.settings_.timed_bytes_per_federate_max + 1);
 }
 
 Outcome FederationExecution::Parts::Time::retract(std::uint32_t slot, Reader& reader) {
@@ -208,6 +249,7 @@ Outcome FederationExecution::Parts::Time::retract(std::uint32_t slot, Reader& re
   Message& message = messages_[index];
   if (message.stamp.time < management_->earliest(slot)) return std::nullopt;
   sent.erase(found);
+  sender(slot).bytes -= message.body.size();
   ++parts_.counters_.retractions;
   message.is_retracted = true;
   message.is_retractable = false;

@@ -50,7 +50,8 @@ class FederationExecution::Parts::Time final : public TimeListener {
   struct Sender {
     std::uint64_t next_number = 0;
     std::vector<Sent> sent;
-    std::size_t compact_at = 64;
+    std::size_t bytes = 0;  ///< of what is in `sent`
+    std::size_t compact_at = 64, compact_bytes_at = 1u << 20;
   };
 
   Outcome take_switch(std::uint32_t slot, Reader& reader);
@@ -62,6 +63,8 @@ class FederationExecution::Parts::Time final : public TimeListener {
   Outcome retract(std::uint32_t slot, Reader& reader);
   bool is_full() const;
   void make_room(std::uint32_t speaker);
+  std::uint32_t find_culprit() const;
+  bool is_greedy(const Sender& sender) const;
   std::uint32_t take_place();
   Sender& sender(std::uint32_t slot);
   void forget_final(std::uint32_t slot);
@@ -87,6 +90,7 @@ class FederationExecution::Parts::Time final : public TimeListener {
   std::unique_ptr<TimeManagement> management_;
   std::vector<Message> messages_;
   std::vector<std::uint32_t> free_;
+  std::size_t bytes_ = 0;                       ///< of the messages' bodies
   std::vector<Sender> senders_;                 ///< by slot
   std::vector<std::uint32_t> arrived_;          ///< messages to distribute
   std::vector<std::uint32_t> asking_;           ///< slots that asked for their bounds

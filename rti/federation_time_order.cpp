@@ -6,6 +6,13 @@
 
 namespace rink::rti {
 
+namespace {
+
+/// Memory of messages that is used again: bytes of a body, and places once all are free. A flood's goes with it.
+constexpr std::size_t body_kept_max = 512, places_kept_max = 4096;
+
+}  // namespace
+
 void FederationExecution::Parts::Time::settle() {
   for (const std::uint32_t index : arrived_) distribute(index);
   arrived_.clear();
@@ -152,12 +159,17 @@ void FederationExecution::Parts::Time::release(std::uint32_t index) {
   Message& message = messages_[index];
   std::vector<std::byte> body = std::move(message.body);
   std::vector<Message::Receiver> receivers = std::move(message.receivers);
+  bytes_ -= body.size();
   body.clear();
+  if (body.capacity() > body_kept_max) body = {};
   receivers.clear();
   message = {};
   message.body = std::move(body);
   message.receivers = std::move(receivers);
   free_.push_back(index);
+  if (free_.size() < messages_.size() || free_.size() <= places_kept_max) return;
+  messages_ = {};
+  free_ = {};
 }
 
 void FederationExecution::Parts::Time::regulation_enabled(std::uint32_t federate, double time, double earliest) {

@@ -190,5 +190,37 @@ TEST(GreedyPeer, AStrangerWhoSaysOneByteNowAndThenIsSilent) {
   EXPECT_EQ(bare.dropped.count(1), 1u);
 }
 
+TEST(GreedyPeer, WhoSaysMoreAheadOfTimeThanIsKeptForOneGoes) {
+  TimedFederation federation({}, with(&FederationSettings::timed_bytes_per_federate_max, 2u << 20));
+  TimedFederate& shouter = federation.join_timed(0.0, false);
+  TimedFederate& listener = federation.join_timed(-1.0);
+  listener.ambassador.time_advance_request(LogicalTime(10.0));
+  for (int i = 0; i < 100 && shouter.lost.empty(); ++i) {
+    TimedFederation::say(shouter, 1e6 + i, std::string(30'000, 'x'));
+    federation.carry();
+  }
+  EXPECT_NE(shouter.lost, "");
+  EXPECT_EQ(listener.lost, "");
+  EXPECT_EQ(federation.drops(Violation::over_limit), 1u);
+}
+
+TEST(GreedyPeer, WhoHoldsTheOthersTimeUpGoesBeforeThoseWhoWaitForIt) {
+  TimedFederation federation({}, with(&FederationSettings::timed_max, 100));
+  TimedFederate& stopped = federation.join_timed(0.0, false);
+  TimedFederate& sender = federation.join_timed(1.0, false);
+  TimedFederate& listener = federation.join_timed(-1.0);
+  for (int step = 1; step <= 300; ++step) {
+    TimedFederation::say(sender, sender.clock().earliest(), "step " + std::to_string(step));
+    sender.ambassador.time_advance_request(LogicalTime(step));
+    federation.carry();
+    if (!listener.clock().is_advancing()) listener.ambassador.time_advance_request(LogicalTime(step));
+    federation.carry();
+  }
+  EXPECT_NE(stopped.lost, "");
+  EXPECT_EQ(sender.lost, "");
+  EXPECT_EQ(listener.lost, "");
+  EXPECT_EQ(listener.times(TimedFederate::Heard::What::message).size(), 300u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
