@@ -1,4 +1,5 @@
 // Bytes in and out of a TCP peer: one gathered write per send, a bounded queue for what the kernel doesn't take.
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
 
@@ -128,8 +129,11 @@ void TcpTransport::Core::close(ConnectionId connection) {
   if (peer->is_open) {
     // Unread input would turn our close into a reset, which may overtake the last bytes that we sent.
     ::shutdown(peer->file.number(), SHUT_WR);
-    while (::recv(peer->file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT) > 0) {
-    }
+    // No more than had room in the kernel: who sends without pause must not keep us here.
+    int waiting = 0;
+    ::ioctl(peer->file.number(), FIONREAD, &waiting);
+    for (ssize_t size = 1; size > 0 && waiting > 0; waiting -= static_cast<int>(size))
+      size = ::recv(peer->file.number(), read_buffer_.data(), std::min(read_buffer_.size(), static_cast<std::size_t>(waiting)), MSG_DONTWAIT);
   }
   end(*peer, CloseReason::closed_by_us, "closed by us");
 }
