@@ -6,6 +6,7 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "rti/transport/kernel_counters.h"
@@ -21,6 +22,17 @@ constexpr std::size_t accepted_per_event = 64;
 constexpr int unsent_max = 256 * 1024;
 constexpr std::uint64_t listener_mark = 1ull << 32;  ///< numbers from here on are listening sockets, those below are connections
 constexpr std::uint64_t pause_mark = ~0ull;
+constexpr std::size_t counters_kept = 1024;  ///< of closed connections
+
+void add_to(TransportCounters& sum, const TransportCounters& one) {
+  sum.bytes_sent += one.bytes_sent;
+  sum.bytes_received += one.bytes_received;
+  sum.writes += one.writes;
+  sum.segments_sent += one.segments_sent;
+  sum.queued_bytes += one.queued_bytes;
+  *sum.kernel_bytes_sent += one.kernel_bytes_sent.value_or(one.bytes_sent);
+  *sum.kernel_bytes_received += one.kernel_bytes_received.value_or(one.bytes_received);
+}
 
 asio::error_code last_error() { return {errno, asio::system_category()}; }
 
@@ -97,7 +109,6 @@ ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16
 TcpTransport::Core::Peer& TcpTransport::Core::add(File file) {
   peers_.push_back(std::make_unique<Peer>(static_cast<ConnectionId>(peers_.size())));
   peers_.back()->file = std::move(file);
-  last_counters_.emplace_back();
   return *peers_.back();
 }
 
@@ -163,14 +174,16 @@ void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& 
   peer.file.close();
   peer.queue = {};
   peer.queue_from = 0;
-  closed_.push_back({peer.id, reason, detail});
+  ended_.push_back({peer.id, reason, detail});
 }
 
 void TcpTransport::Core::report_closed() {
-  while (!closed_.empty()) {
-    reporting_.swap(closed_);
+  while (!ended_.empty()) {
+    reporting_.swap(ended_);
     for (const Closed& each : reporting_) {
-      last_counters_[each.connection] = peers_[each.connection]->counters;
+      add_to(closed_, peers_[each.connection]->counters);
+      last_counters_.emplace_back(each.connection, peers_[each.connection]->counters);
+      if (last_counters_.size() > counters_kept) last_counters_.pop_front();
       peers_[each.connection].reset();
       listener_->on_close(each.connection, each.reason, each.detail);
     }
@@ -186,7 +199,7 @@ void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
     return;
   }
   // One question per poll: each system call here is one more in every round trip. What comes while we handle what had come is the next poll's.
-  readiness_.ask(closed_.empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
+  readiness_.ask(ended_.empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
   take_what_came();
   listener_ = nullptr;
 }
@@ -234,7 +247,10 @@ void TcpTransport::Core::take(const Readiness::Event& event) {
 
 TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
   const Peer* peer = find(connection);
-  if (peer == nullptr) return connection < last_counters_.size() ? last_counters_[connection] : TransportCounters{};
+  if (peer == nullptr) {
+    const auto last = std::ranges::find(last_counters_, connection, &std::pair<ConnectionId, TransportCounters>::first);
+    return last != last_counters_.end() ? last->second : TransportCounters{};
+  }
   TransportCounters counters = peer->counters;
   if (peer->is_leaving) return counters;
   counters.queued_bytes = peer->queue.size() - peer->queue_from;
@@ -254,17 +270,9 @@ void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
 void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
 void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
 TransportCounters TcpTransport::Core::totals() const {
-  TransportCounters sum{.kernel_bytes_sent = 0, .kernel_bytes_received = 0};
-  for (ConnectionId connection = 0; connection < last_counters_.size(); ++connection) {
-    const TransportCounters one = counters(connection);
-    sum.bytes_sent += one.bytes_sent;
-    sum.bytes_received += one.bytes_received;
-    sum.writes += one.writes;
-    sum.segments_sent += one.segments_sent;
-    sum.queued_bytes += one.queued_bytes;
-    *sum.kernel_bytes_sent += one.kernel_bytes_sent.value_or(one.bytes_sent);
-    *sum.kernel_bytes_received += one.kernel_bytes_received.value_or(one.bytes_received);
-  }
+  TransportCounters sum = closed_;
+  for (const auto& peer : peers_)
+    if (peer) add_to(sum, counters(peer->id));
   return sum;
 }
 

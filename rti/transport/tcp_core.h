@@ -4,8 +4,10 @@
 #include <asio.hpp>
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rti/transport/readiness.h"
@@ -38,7 +40,7 @@ class TcpTransport::Core {
     ConnectionId id;
     std::string place;                  ///< whom we connect to
     bool is_open = false;               ///< connected; may be sent to
-    bool is_leaving = false;            ///< its end is in `closed_`, waiting to be reported
+    bool is_leaving = false;            ///< its end is in `ended_`, waiting to be reported
     bool is_writing = false;            ///< waits for room in the kernel's buffer
     std::vector<std::byte> queue;       ///< from `queue_from` on: accepted, not yet taken
     std::size_t queue_from = 0;
@@ -72,8 +74,9 @@ class TcpTransport::Core {
   std::vector<File> listening_;
   File pause_;                                    ///< a timer that ends the time in which nobody is accepted
   std::vector<std::unique_ptr<Peer>> peers_;      ///< by connection; null once closed
-  std::vector<TransportCounters> last_counters_;  ///< of closed ones, by connection
-  std::vector<Closed> closed_, reporting_;
+  std::deque<std::pair<ConnectionId, TransportCounters>> last_counters_;  ///< of those that closed last
+  TransportCounters closed_{.kernel_bytes_sent = 0, .kernel_bytes_received = 0};  ///< sum over all closed ones
+  std::vector<Closed> ended_, reporting_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling
   std::size_t open_count_ = 0;
