@@ -209,7 +209,7 @@ bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
   using Clock = std::chrono::steady_clock;
   constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
   const auto spin = std::min(settings_.spin, longest_wait);
-  if (open_count_ != 1 || !closed_.empty() || readiness_.has_left() || (longest_wait.count() > 0 && spin.count() <= 0)) return false;
+  if (open_count_ != 1 || !ended_.empty() || readiness_.has_left() || (longest_wait.count() > 0 && spin.count() <= 0)) return false;
   Peer* peer = find(newest_open_);
   if (peer == nullptr || !peer->is_open || peer->is_leaving || peer->is_writing) return false;
   const std::uint64_t before = bytes_taken_;
