@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdio>
 #include <deque>
+#include <numeric>
 #include <sstream>
 #include <string>
 
@@ -175,7 +176,6 @@ class Clerk final : public FederateAmbassador {
   void attribute_ownership_acquisition_notification(ObjectHandle object, AttributeSet set, Bytes tag) override { note("acquired", object, set, tag); }
   void attribute_ownership_divested(ObjectHandle object, AttributeSet set) override { note("divested", object, set); }
   void inform_attribute_ownership(ObjectHandle object, AttributeHandle attribute, FederateHandle owner) override { heard.push_back(line_of("owner", object.value, attribute.value, owner.value)); }
-  void provide_attribute_value_update(ObjectHandle object, AttributeSet set) override { heard.push_back(line_of("provide", object.value, set.bits)); }
 
   // Reports.
   void report_management(const std::vector<FederationReport>& reports) override {
