@@ -70,6 +70,10 @@ void replay(std::span<const im::Change> changes, std::size_t object_count, Table
 bool is_relevant(const std::string& scheme, const im::Region& s, const im::Region& u, double cell) {
   if (scheme == "none") return true;
   if (scheme == "region") return s.low_x <= u.high_x && u.low_x <= s.high_x && s.low_y <= u.high_y && u.low_y <= s.high_y;
+  if (scheme == "aura") {
+    const double x = 0.5 * (s.low_x + s.high_x), y = 0.5 * (s.low_y + s.high_y), radius = 0.5 * std::min(s.high_x - s.low_x, s.high_y - s.low_y);
+    return std::hypot(std::clamp(x, u.low_x, u.high_x) - x, std::clamp(y, u.low_y, u.high_y) - y) <= radius;
+  }
   const double column = std::floor(0.5 * (u.low_x + u.high_x) / cell), row = std::floor(0.5 * (u.low_y + u.high_y) / cell);
   return std::floor(s.low_x / cell) <= column && column <= std::floor(s.high_x / cell) && std::floor(s.low_y / cell) <= row &&
          row <= std::floor(s.high_y / cell);

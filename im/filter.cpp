@@ -6,6 +6,7 @@
 
 // A new scheme adds its line here, in alphabetical order, and defines make_NAME_filter in its own file.
 #define RINK_SCHEMES(SCHEME) \
+  SCHEME(aura)               \
   SCHEME(grid)               \
   SCHEME(none)               \
   SCHEME(region)

@@ -19,13 +19,23 @@ void OverlapFilter::remove_subscriber(Subscriber subscriber) {
   if (subscribers_.remove(subscriber)) join_.forget_subscriber(subscriber);
 }
 
-std::span<const Change> OverlapFilter::match() {
+std::span<const Change> OverlapFilter::find() {
   const auto moved_entities = entities_.take_moved(), moved_subscribers = subscribers_.take_moved();
+  const std::uint64_t tested_before = join_.pairs_tested();
   const std::span<const Change> changes = join_.find(entities_, moved_entities, subscribers_, moved_subscribers);
+  counters_.pairs_tested += join_.pairs_tested() - tested_before;
+  return changes;
+}
+
+void OverlapFilter::settle(std::size_t change_count) {
   entities_.settle();
   subscribers_.settle();
-  counters_.pairs_tested = join_.pairs_tested();
-  counters_.changes += changes.size();
+  counters_.changes += change_count;
+}
+
+std::span<const Change> OverlapFilter::match() {
+  const std::span<const Change> changes = find();
+  settle(changes.size());
   return changes;
 }
 

@@ -26,10 +26,16 @@ class OverlapFilter : public Filter {
   /// Memory held.
   std::size_t bytes() const;
 
- private:
+ protected:
+  // The two halves of `match`, for who decides more exactly than rectangles do: what changed, and that all of it has been seen.
+  std::span<const Change> find();
+  void settle(std::size_t change_count);
+
   RegionHistory entities_, subscribers_;
-  ChangeJoin join_;
   FilterCounters counters_;
+
+ private:
+  ChangeJoin join_;
 };
 
 }  // namespace rink::im

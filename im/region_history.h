@@ -46,6 +46,8 @@ class RegionHistory {
 
   /// Those that were set to another place since the last match (and maybe back again), in ascending order; has_moved and `before` agree from here to `settle`.
   std::span<const std::uint32_t> take_moved();
+  /// The same again, until `settle`.
+  std::span<const std::uint32_t> moved() const { return moved_.span(); }
   /// Makes now the new before.
   void settle();
 

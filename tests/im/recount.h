@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -18,6 +20,18 @@ namespace rink::im {
 using Pairs = std::set<std::pair<Subscriber, Entity>>;
 using Relevant = std::function<bool(const Region& subscription, const Region& update)>;
 
+/// The nearest point of `update` is in the closed disc that `subscription` holds. Wide enough that only rounding of a 64th bit could matter.
+inline bool disc_touches(const Region& subscription, const Region& update) {
+  const auto offset = [](long double low, long double high, long double update_low, long double update_high) {
+    const long double middle = (low + high) / 2.0L;
+    return std::clamp(middle, update_low, update_high) - middle;
+  };
+  const long double radius = std::min((subscription.high_x - 0.0L - subscription.low_x) / 2.0L, (subscription.high_y - 0.0L - subscription.low_y) / 2.0L);
+  const long double x = offset(subscription.low_x, subscription.high_x, update.low_x, update.high_x);
+  const long double y = offset(subscription.low_y, subscription.high_y, update.low_y, update.high_y);
+  return radius * radius >= x * x + y * y;
+}
+
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
   if (scheme == "none") return [](const Region&, const Region&) { return true; };
@@ -25,6 +39,7 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
     return [](const Region& s, const Region& u) {
       return !(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y);
     };
+  if (scheme == "aura") return disc_touches;
   return [settings](const Region& s, const Region& u) {
     const auto cell = [&](double coordinate, double origin) { return std::floor((coordinate - origin) / settings.cell_size); };
     const double column = cell((u.low_x + u.high_x) / 2.0, settings.world.low_x), row = cell((u.low_y + u.high_y) / 2.0, settings.world.low_y);
@@ -36,7 +51,8 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
 /// A filter together with all it was told, its reported changes replayed, and the rule it must agree with.
 class Judged {
  public:
-  Judged(const std::string& scheme, const FilterSettings& settings) : filter_(make_filter(scheme, settings)), relevant_(rule_of(scheme, settings)) {}
+  Judged(const std::string& scheme, const FilterSettings& settings) : Judged(make_filter(scheme, settings), rule_of(scheme, settings)) {}
+  Judged(std::unique_ptr<Filter> filter, Relevant relevant) : filter_(std::move(filter)), relevant_(std::move(relevant)) {}
 
   void move_entity(Entity entity, const Region& region) {
     filter_->set_update_region(entity, region);

@@ -1,0 +1,98 @@
+// The pairs whose boxes overlap, with what was last said about each: what an exact test has to look at again when one of the two moves.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "im/filter.h"
+#include "im/matching/buffer.h"
+
+namespace rink::im {
+
+/// Memory: 8 bytes per pair and half as much in reserve. Lists keep theirs when pairs go.
+class CandidatePairs {
+ public:
+  /// Forgets the pairs of one who is gone.
+  void remove_entity(Entity entity);
+  void remove_subscriber(Subscriber subscriber);
+
+  /// Has `review` look at the pairs of `subscriber`, or at those of all whose box overlaps that of `entity`.
+  void touch(Subscriber subscriber);
+  void touch_near(Entity entity);
+
+  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber, entity, is_relevant)` for each pair of those touched, whose third
+  /// argument is what it said last. Appends what changed to `changes`, ordered.
+  template <class Decide>
+  void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
+
+  std::size_t bytes() const;
+
+ private:
+  /// An entity and, in the lowest bit, whether it is relevant.
+  using Entry = std::uint32_t;
+  static Entity entity_of(Entry entry) { return entry >> 1; }
+
+  void add(Subscriber subscriber, Entity entity);
+  void forget(Subscriber subscriber, Entity entity);
+  template <class Decide>
+  std::size_t merge(Subscriber subscriber, std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
+
+  std::vector<Buffer<Entry>> entries_;           // by subscriber, ascending
+  std::vector<Buffer<Subscriber>> subscribers_;  // by entity, in no order
+  Buffer<Entry> merged_;
+  Buffer<Subscriber> touched_;
+  std::vector<bool> is_touched_;
+};
+
+template <class Decide>
+void CandidatePairs::review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes) {
+  for (const Change& change : box_changes) touch(change.subscriber);
+  std::sort(touched_.data(), touched_.data() + touched_.size());
+  for (const Subscriber subscriber : touched_.span()) {
+    box_changes = box_changes.subspan(merge(subscriber, box_changes, decide, changes));
+    is_touched_[subscriber] = false;
+  }
+  touched_.clear();
+}
+
+/// Returns how many of `box_changes`, the first, were of `subscriber`.
+template <class Decide>
+std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes) {
+  Buffer<Entry>& entries = entries_[subscriber];
+  std::size_t next = 0;
+  const auto has_change = [&] { return next < box_changes.size() && box_changes[next].subscriber == subscriber; };
+  const auto look = [&](Entity entity, bool was) {
+    const bool is = decide(subscriber, entity, was);
+    if (is != was) changes.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
+    merged_.push_back(entity << 1 | (is ? 1u : 0u));
+  };
+  const auto enter_below = [&](std::uint64_t end) {
+    for (; has_change() && box_changes[next].entity < end; ++next) {
+      add(subscriber, box_changes[next].entity);
+      look(box_changes[next].entity, false);
+    }
+  };
+  merged_.clear();
+  for (const Entry entry : entries.span()) {
+    const Entity entity = entity_of(entry);
+    enter_below(entity);
+    const bool was = (entry & 1u) != 0;
+    if (!has_change() || box_changes[next].entity != entity) {
+      look(entity, was);
+      continue;
+    }
+    assert(box_changes[next].transition == Transition::left);
+    if (was) changes.push_back(box_changes[next]);
+    forget(subscriber, entity);
+    ++next;
+  }
+  enter_below(std::uint64_t{1} << 32);
+  entries.resize(merged_.size());
+  std::copy(merged_.span().begin(), merged_.span().end(), entries.data());
+  return next;
+}
+
+}  // namespace rink::im

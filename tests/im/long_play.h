@@ -1,0 +1,53 @@
+// Long random sequences of moves, arrivals, removals and returns, each match judged by brute force.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/im/layouts.h"
+#include "tests/im/recount.h"
+
+namespace rink::im {
+
+/// A round of what may happen between two matches; `activity` is the share of ids that something happens to.
+inline void disturb(Judged& judged, Random& random, const Layout& layout, double activity) {
+  constexpr std::uint32_t entity_max = 60, subscriber_max = 15;
+  constexpr double entity_half = 0.5, subscriber_half = 3.0;
+  const auto happens = [&](double probability) { return between(random, 0.0, 1.0) < probability; };
+  for (Entity entity = 0; entity < entity_max; ++entity) {
+    if (!happens(activity)) continue;
+    if (happens(0.1)) judged.remove_entity(entity);
+    const auto found = judged.entities().find(entity);
+    if (found != judged.entities().end()) judged.move_entity(entity, moved(random, found->second, layout, entity_half));
+    else if (happens(0.5)) judged.move_entity(entity, layout.draw(random, entity_half));
+  }
+  for (Subscriber subscriber = 0; subscriber < subscriber_max; ++subscriber) {
+    if (!happens(activity)) continue;
+    if (happens(0.1)) judged.remove_subscriber(subscriber);
+    const auto found = judged.subscribers().find(subscriber);
+    if (found != judged.subscribers().end()) judged.move_subscriber(subscriber, moved(random, found->second, layout, subscriber_half));
+    else if (happens(0.5)) judged.move_subscriber(subscriber, layout.draw(random, subscriber_half));
+  }
+}
+
+inline FilterSettings settings_for(std::uint64_t seed) { return {.world = {0.0, 0.0, side, side}, .cell_size = seed % 2 == 0 ? 1.0 : 0.7}; }
+
+/// `make` gives a fresh `Judged` for each layout.
+template <class Make>
+void play(std::uint64_t seed, int matches, const Make& make) {
+  for (const Layout& layout : layouts) {
+    SCOPED_TRACE(std::string("on ") + layout.name + " with seed " + std::to_string(seed));
+    Random random(seed);
+    Judged judged = make();
+    for (int i = 0; i < matches; ++i) {
+      constexpr std::array activities{1.0, 0.3, 0.05};
+      disturb(judged, random, layout, activities[static_cast<std::size_t>(i) % activities.size()]);
+      if (i % 7 == 3) disturb(judged, random, layout, 0.5);  // several moves between two matches
+      judged.check_match();
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+}  // namespace rink::im
