@@ -64,15 +64,19 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
   Buffer<Entry>& entries = entries_[subscriber];
   std::size_t next = 0;
   const auto has_change = [&] { return next < box_changes.size() && box_changes[next].subscriber == subscriber; };
-  const auto look = [&](Entity entity, bool was) {
+  const auto looked_at = [&](Entity entity, bool was) -> Entry {
     const bool is = decide(subscriber, entity, was);
     if (is != was) changes.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
-    merged_.push_back(entity << 1 | (is ? 1u : 0u));
+    return entity << 1 | (is ? 1u : 0u);
   };
+  if (!has_change()) {
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = looked_at(entity_of(entries[i]), (entries[i] & 1u) != 0);
+    return 0;
+  }
   const auto enter_below = [&](std::uint64_t end) {
     for (; has_change() && box_changes[next].entity < end; ++next) {
       add(subscriber, box_changes[next].entity);
-      look(box_changes[next].entity, false);
+      merged_.push_back(looked_at(box_changes[next].entity, false));
     }
   };
   merged_.clear();
@@ -81,7 +85,7 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
     enter_below(entity);
     const bool was = (entry & 1u) != 0;
     if (!has_change() || box_changes[next].entity != entity) {
-      look(entity, was);
+      merged_.push_back(looked_at(entity, was));
       continue;
     }
     assert(box_changes[next].transition == Transition::left);

@@ -48,7 +48,7 @@ class PredicateFilter : public OverlapFilter {
 
  private:
   bool decide(Subscriber subscriber, Entity entity, bool was) {
-    if (!subscribers_.has_moved(subscriber) && !entities_.has_moved(entity)) return was;
+    if (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber)) return was;
     ++counters_.pairs_tested;
     return relevant_(Party{subscriber, subscribers_[subscriber].now}, Party{entity, entities_[entity].now});
   }
