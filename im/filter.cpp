@@ -8,6 +8,9 @@
 #define RINK_SCHEMES(SCHEME) \
   SCHEME(aura)               \
   SCHEME(grid)               \
+  SCHEME(hex)                \
+  SCHEME(hierarchical)       \
+  SCHEME(hybrid)             \
   SCHEME(none)               \
   SCHEME(region)
 

@@ -61,14 +61,14 @@ class Filter {
 
   virtual const FilterCounters& counters() const = 0;
 
-  /// Side of the cells that it decides by [m]; 0 if it has none. For who shows them.
+  /// Side of the smallest cells that it decides by [m]; 0 if it has none. For who shows them.
   virtual double cell_size() const { return 0.0; }
 };
 
 /// What a scheme may need to know to start.
 struct FilterSettings {
   Region world{0.0, 0.0, 1.0, 1.0};  ///< where entities are expected [m]; others are served too, only slower
-  double cell_size = 0.0;            ///< side of a grid cell [m]; 0 lets the scheme choose
+  double cell_size = 0.0;            ///< side of the smallest cell [m]; 0 lets the scheme choose
 };
 
 /// The scheme called `name`, or nothing if there is none. Names: see `filter_names`.

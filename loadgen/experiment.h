@@ -42,7 +42,7 @@ struct Parameters {
   double view_fraction = 0.05;    ///< area of the view / area of the field, above 0 to 1
   double view_margin = 0.0;       ///< [m] by which the declared region exceeds the view on each side (game::ClientSettings)
   std::uint32_t sweep_ticks = 0;  ///< ticks ahead over which update regions are swept (game::RegionSweep)
-  double cell_size = 0.0;         ///< side of a grid cell [m]; 0 lets the scheme choose
+  double cell_size = 0.0;         ///< side of a scheme's cells [m]; 0 lets the scheme choose
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -108,7 +108,7 @@ struct Cell {
 /// schemes alike; seeds outermost, so that an interrupted experiment has whole replications. Cells that differ only in what their scheme does not have run once.
 std::vector<Cell> cells_of(const Experiment& experiment);
 
-/// `cell` without the parameters that its scheme does not have: the size of cells is for `grid`, and with `none` neither margin nor sweep changes anything.
+/// `cell` without the parameters that its scheme does not have: the size of cells is for schemes that have some, and with `none` neither margin nor sweep changes anything.
 Cell without_idle_parameters(Cell cell);
 
 /// The cell that the ratios of `cell` refer to: the same but for `scheme` and `policy`.

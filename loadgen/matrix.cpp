@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "loadgen/experiment.h"
+#include "rti/federation_execution.h"
 
 namespace rink::loadgen {
 namespace {
@@ -52,7 +53,7 @@ std::vector<Difference> differences_of(const Cell& cell) {
 }  // namespace
 
 Cell without_idle_parameters(Cell cell) {
-  if (cell.scheme != "grid") cell.parameters.cell_size = 0.0;
+  if (const auto filter = im::make_filter(cell.scheme, {}); !filter || filter->cell_size() == 0.0) cell.parameters.cell_size = 0.0;
   if (cell.scheme == "none") cell.parameters.view_margin = 0.0, cell.parameters.sweep_ticks = 0;
   return cell;
 }

@@ -48,7 +48,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--rate-limit", options.rate_limit_bytes_per_s, "bytes per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e12))->capture_default_str();
   app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(zero_or_number_from(1.0, 1e9))->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
-  app.add_option("--cell-size", options.cell_size, "of the grid scheme [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
+  app.add_option("--cell-size", options.cell_size, "of schemes with cells [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -34,7 +35,7 @@ class TwoSchemes : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Filter, TwoSchemes, testing::Values("grid", "region"), [](const auto& info) { return info.param; });
 
 TEST(Filter, IsFoundByItsNameAndOthersAreNot) {
-  EXPECT_THAT(filter_names(), ElementsAre("aura", "grid", "none", "region"));
+  EXPECT_THAT(filter_names(), ElementsAre("aura", "grid", "hex", "hierarchical", "hybrid", "none", "region"));
   for (const std::string& name : filter_names()) EXPECT_TRUE(make_filter(name, {}));
   EXPECT_FALSE(make_filter("nonesuch", {}));
 }
@@ -203,8 +204,32 @@ TEST(Precision, OfCellsThatASquareTouchesFollowsTheirSide) {
   // A side of 2 R touches 2 R / c + 1 cells on average.
   for (const double k : {0.25, 0.5, 1.0}) {
     const double expected = std::numbers::pi / ((2.0 + k) * (2.0 + k));
-    EXPECT_NEAR(precision_within_circle("grid", 10.0 * k, 10.0, 10.0) / expected, 1.0, 0.03) << "cells of " << k << " R";
+    for (const char* scheme : {"grid", "hierarchical"})
+      EXPECT_NEAR(precision_within_circle(scheme, 10.0 * k, 10.0, 10.0) / expected, 1.0, 0.03) << scheme << ", cells of " << k << " R";
   }
+}
+
+TEST(Precision, OfHexagonsThatASquareTouchesFollowsTheirWidth) {
+  // The middles of those that a square of side L touches fill its sum with a hexagon: L^2 + L (width + height) + area.
+  for (const double k : {0.25, 0.5, 1.0}) {
+    const double height = 2.0 * k / std::numbers::sqrt3, area = 0.75 * k * height;
+    const double expected = std::numbers::pi / (4.0 + 2.0 * (k + height) + area);
+    EXPECT_NEAR(precision_within_circle("hex", 10.0 * k, 10.0, 10.0) / expected, 1.0, 0.03) << "hexagons of " << k << " R";
+  }
+}
+
+TEST(Precision, OfCellsFollowedByTheSquareItselfIsThatOfTheSquare) {
+  EXPECT_NEAR(precision_within_circle("hybrid", 5.0, 10.0, 10.0) / (std::numbers::pi / 4.0), 1.0, 0.01);
+}
+
+TEST(HierarchicalScheme, KnowsALargeEntityByAllOfItsCell) {
+  const auto grid = make_filter("grid", {.world = world, .cell_size = 5.0}), levels = make_filter("hierarchical", {.world = world, .cell_size = 5.0});
+  for (Filter* filter : {grid.get(), levels.get()}) {
+    filter->set_subscription_region(0, {1.0, 1.0, 2.0, 2.0});
+    filter->set_update_region(0, {0.0, 0.0, 40.0, 40.0});
+  }
+  EXPECT_THAT(match(*grid), IsEmpty()) << "its centre is far";
+  EXPECT_THAT(match(*levels), ElementsAre(Change{0, 0, Transition::entered}));
 }
 
 TEST(Precision, OfThreeByThreeCellsAsLargeAsTheReachIsANinthOfPi) {

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -32,20 +35,62 @@ inline bool disc_touches(const Region& subscription, const Region& update) {
   return radius * radius >= x * x + y * y;
 }
 
+inline bool overlap_closed(const Region& s, const Region& u) { return !(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y); }
+
+inline double middle(double low, double high) { return low / 2.0 + high / 2.0; }
+
+/// The cell of the middle of `update` is one that `subscription` touches.
+inline bool grid_touches(const FilterSettings& settings, const Region& s, const Region& u) {
+  const auto cell = [&](double coordinate, double origin) { return std::floor((coordinate - origin) / settings.cell_size); };
+  const double column = cell(middle(u.low_x, u.high_x), settings.world.low_x), row = cell(middle(u.low_y, u.high_y), settings.world.low_y);
+  return cell(s.low_x, settings.world.low_x) <= column && column <= cell(s.high_x, settings.world.low_x) && cell(s.low_y, settings.world.low_y) <= row &&
+         row <= cell(s.high_y, settings.world.low_y);
+}
+
+/// The same, half-open to the last bit, at a side that is the settings' doubled until `update` does not exceed it.
+inline bool level_touches(const FilterSettings& settings, const Region& s, const Region& u) {
+  const double longer = std::min(std::max(u.high_x - u.low_x, u.high_y - u.low_y), std::numeric_limits<double>::max() / 4.0);
+  const double size = settings.cell_size * static_cast<double>(std::exp2(std::max(0.0L, std::ceil(std::log2(longer / (settings.cell_size + 0.0L))))));
+  const auto touches = [size](double origin, double centre, double low, double high) {
+    const double number = std::floor((centre - origin) / size), first = origin + number * size, end = origin + (number + 1.0) * size;
+    return first <= high && (low < end || (first == end && low == end));
+  };
+  return touches(settings.world.low_x, middle(u.low_x, u.high_x), s.low_x, s.high_x) && touches(settings.world.low_y, middle(u.low_y, u.high_y), s.low_y, s.high_y);
+}
+
+/// The hexagon whose middle is nearest to that of `update`, looked for among all around it (of equals the right one), cut with `subscription` along the normals of all sides.
+inline bool hexagon_touches(const FilterSettings& settings, const Region& s, const Region& u) {
+  const double width = settings.cell_size, row_height = width * std::sqrt(3.0) / 2.0, x = middle(u.low_x, u.high_x), y = middle(u.low_y, u.high_y);
+  const double near_row = std::floor((y - settings.world.low_y) / row_height), near_column = std::floor((x - settings.world.low_x) / width);
+  double best = std::numeric_limits<double>::infinity(), best_x = 0.0, best_y = 0.0;
+  for (int around = 0; around < 9; ++around) {
+    const double row = near_row + around / 3 - 1, column = near_column + around % 3 - 1;
+    const double middle_x = settings.world.low_x + (column + (std::fmod(row, 2.0) == 0.0 ? 0.0 : 0.5)) * width, middle_y = settings.world.low_y + row * row_height;
+    const double distance = std::hypot(x - middle_x, y - middle_y);
+    if (distance <= best) best = distance, best_x = middle_x, best_y = middle_y;
+  }
+  const double half_width = width / 2.0, half_height = width / std::sqrt(3.0);
+  if (!overlap_closed(s, {best_x - half_width, best_y - half_height, best_x + half_width, best_y + half_height})) return false;
+  for (const double slope : {-std::sqrt(3.0), std::sqrt(3.0)}) {
+    const double corners[] = {s.low_x + slope * s.low_y, s.low_x + slope * s.high_y, s.high_x + slope * s.low_y, s.high_x + slope * s.high_y};
+    const auto [low, high] = std::minmax_element(std::begin(corners), std::end(corners));
+    if (*high < best_x + slope * best_y - width || *low > best_x + slope * best_y + width) return false;
+  }
+  return true;
+}
+
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
-  if (scheme == "none") return [](const Region&, const Region&) { return true; };
-  if (scheme == "region")
-    return [](const Region& s, const Region& u) {
-      return !(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y);
-    };
-  if (scheme == "aura") return disc_touches;
-  return [settings](const Region& s, const Region& u) {
-    const auto cell = [&](double coordinate, double origin) { return std::floor((coordinate - origin) / settings.cell_size); };
-    const double column = cell((u.low_x + u.high_x) / 2.0, settings.world.low_x), row = cell((u.low_y + u.high_y) / 2.0, settings.world.low_y);
-    return cell(s.low_x, settings.world.low_x) <= column && column <= cell(s.high_x, settings.world.low_x) &&
-           cell(s.low_y, settings.world.low_y) <= row && row <= cell(s.high_y, settings.world.low_y);
+  const auto with_settings = [settings](bool (*rule)(const FilterSettings&, const Region&, const Region&)) {
+    return [=](const Region& s, const Region& u) { return rule(settings, s, u); };
   };
+  if (scheme == "none") return [](const Region&, const Region&) { return true; };
+  if (scheme == "region") return overlap_closed;
+  if (scheme == "aura") return disc_touches;
+  if (scheme == "hybrid") return [settings](const Region& s, const Region& u) { return grid_touches(settings, s, u) && overlap_closed(s, u); };
+  if (scheme == "hierarchical") return with_settings(level_touches);
+  if (scheme == "hex") return with_settings(hexagon_touches);
+  return with_settings(grid_touches);
 }
 
 /// A filter together with all it was told, its reported changes replayed, and the rule it must agree with.
