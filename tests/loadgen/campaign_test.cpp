@@ -72,9 +72,9 @@ TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {
   experiment_.duration_s = experiment_.warm_up_s = 0.25;
   run();
   const std::string serve_text = test::text_of(folder_ / "serve.arguments"), bots_text = test::text_of(folder_ / "bots.arguments");
-  EXPECT_THAT(serve_text, HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --scheme none --cell-size 2.5 --policy periodic "
+  EXPECT_THAT(serve_text, HasSubstr("--scene crowd --bats 10 --seed 1 --address 127.0.0.1 --port 0 --transport tcp --scheme none --cell-size 2.5 --policy periodic "
                                           "--rate 30 --duration 0.5 --warm-up 0.25"));
-  EXPECT_THAT(bots_text, AllOf(HasSubstr("--connect 127.0.0.1:4711 --count 10 --seed 1 --plan "), HasSubstr("--view 0.05")));
+  EXPECT_THAT(bots_text, AllOf(HasSubstr("--connect 127.0.0.1:4711 --transport tcp --count 10 --seed 1 --plan "), HasSubstr("--view 0.05")));
 }
 
 TEST_F(CampaignTest, AServerThatEndsBeforeItListensIsQuoted) {

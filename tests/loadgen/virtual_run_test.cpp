@@ -132,7 +132,8 @@ TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
   for (const auto& [who, mine] : std::map<const char*, nlohmann::json>{{"server", virtual_server}, {"bots", virtual_bots}})
   {
     const nlohmann::json over_sockets = report(cell, who);
-    const std::set<std::string> of_processes{"cpu_share", "evidence_bytes", "histogram_ns_per_record"};  // what their clocks and memory say of themselves
+    // What their clocks, pace and memory say of themselves.
+    const std::set<std::string> of_processes{"cpu_share", "evidence_bytes", "histogram_ns_per_record", "burst_bytes_max", "pace", "send_us_max", "spread", "time_managed"};
     for (const auto& [key, value] : over_sockets.items())
       EXPECT_TRUE(of_processes.contains(key) || mine.contains(key)) << "the " << who << "' report over sockets has " << key;
   }

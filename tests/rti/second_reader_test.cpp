@@ -91,6 +91,8 @@ void negotiate(Session& session) {
     clerk->publish(vessel, motion);
     clerk->exchange_interactions(hail);
   }
+  for (const char* line : {"class_relevance Vessel - -", "interaction_relevance Hail 0 0", "interaction_relevance Hail 1 1", "class_relevance Vessel position position"}) pilot.heard.push_back(line);
+  for (const char* line : {"class_relevance Vessel - -", "interaction_relevance Hail 1 1"}) watchman.heard.push_back(line);
   const DimensionHandle x = watchman.ambassador.get_dimension_handle("X");
   const RegionHandle strip = watchman.ambassador.create_region(DimensionSet{x});
   watchman.say(line_of("create_region_over", wire_number(strip), 1));
