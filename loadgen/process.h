@@ -33,6 +33,7 @@ class Process {
 
   /// Reads what the process wrote and sees whether it ended, waiting up to `limit` for one of the two.
   void attend(std::chrono::milliseconds limit);
+  pid_t id() const { return id_; }
   /// Absent while it runs.
   const std::optional<Ending>& ending() const { return ending_; }
   /// The rest of the first line of its standard output that starts with `beginning`, once that line is complete.

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "game/control/free_place.h"
-#include "game/model/state_hash.h"
+#include "game/control/game_hash.h"
 
 namespace rink::game {
 namespace {
@@ -176,11 +176,9 @@ const Entity& Game::entity(EntityId entity) const {
 }
 
 std::uint64_t Game::hash() const {
-  StateHash hash;
-  hash.add(simulator_->hash());
-  for (const Entity& entity : entities_) hash.add(std::uint64_t{entity.id.index});
-  for (const Seat& seat : seats_) hash.add(std::uint64_t{seat.controller.keys().bits()} << 32 | seat.controller.input_count());
-  hash.add(std::uint64_t{score_.left} << 32 | score_.right);
+  std::vector<const BatController*> players;
+  for (const Seat& seat : seats_) players.push_back(&seat.controller);
+  StateHash hash = begun_game_hash(simulator_->hash(), entities_, players, score_);
   for (const FaceOff& due : face_offs_) hash.add(due.time), hash.add(std::uint64_t{due.puck.index});
   return hash.value();
 }

@@ -71,5 +71,29 @@ TEST(Box, HoldsThePathThatItIsSweptBy) {
   }
 }
 
+TEST(Division, ByCountGivesAllPeersEquallyManyPlaces) {
+  Random random(11);
+  for (int k = 0; k < 50; ++k) {
+    const auto peer_count = static_cast<PeerNumber>(2 + k % 15);
+    std::vector<Vector2> places;
+    for (int n = 0; n < 1000; ++n) {
+      const double x = uniform(random, 0.0, 1.0);
+      const double y = uniform(random, 0.0, 1.0);
+      places.push_back({4.0 * x * x * x, 2.0 * y * y});
+    }
+    const Division division = Division::by_count(field, places, peer_count);
+    std::vector<int> counts(peer_count, 0);
+    for (const Vector2& place : places) ++counts[division.owner_of(place)];
+    for (const int count : counts) EXPECT_NEAR(count, 1000.0 / peer_count, 4.0) << peer_count << " peers";
+  }
+}
+
+TEST(Division, ByCountOfPlacesThatCannotBeToldApartIsOneByArea) {
+  for (const std::size_t count : {0, 1, 7}) {
+    const Division division = Division::by_count(field, std::vector<Vector2>(count, Vector2(0.0, 0.0)), 5);
+    for (PeerNumber peer = 0; peer < 5; ++peer) EXPECT_EQ(division.zones_of(peer).size(), 1u);
+  }
+}
+
 }  // namespace
 }  // namespace rink::peer::test

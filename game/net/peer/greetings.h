@@ -1,0 +1,156 @@
+// What peers tell each other before and after they play (docs/peer-to-peer.md, "Joining"), as plain values with one function each that writes and reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/physics/snapshot_stream.h"
+
+namespace rink::game {
+
+inline constexpr std::uint32_t peer_protocol_version = 1;
+inline constexpr std::uint32_t peers_max = 64;
+
+/// The first byte of every frame.
+enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell };
+inline constexpr FrameKind frame_kind_max = FrameKind::farewell;
+
+/// Where a peer can be reached by all others.
+struct Place {
+  std::string address;
+  std::uint16_t port = 0;
+  std::string text() const { return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port); }
+};
+
+/// What every peer brings along, and must be equal at all.
+struct Luggage {
+  std::uint64_t self_test = 0;  ///< peer::self_test_hash()
+  std::uint64_t scene = 0;      ///< game::fingerprint
+  std::uint64_t keys = 0;       ///< of all keys, scripted and recorded
+};
+
+/// What the first peer decides for all.
+struct Terms {
+  std::uint32_t peer_count = 2;
+  double until = 0.0, window = 0.0;  ///< s
+  bool fit() const { return peer_count >= 2 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
+};
+
+/// A newcomer's first words, to any peer. What follows `version` is of that version.
+struct Hello {
+  std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'P', 'e', 'e', 'r'};
+  std::uint32_t version = peer_protocol_version;
+  Luggage luggage;
+  Place place;
+  bool is_of_this_version() const { return version == peer_protocol_version; }
+};
+
+/// The first peer's answer: the newcomer is number `others.size()`, and these, in order of their numbers, are there already.
+struct Welcome {
+  std::uint64_t session = 0;
+  Terms terms;
+  std::vector<Place> others;
+};
+
+/// The answer of any other peer: ask the first one, which is there.
+struct Elsewhere {
+  Place first;
+};
+
+enum class RefusalKind : std::uint8_t { wrong_version, other };
+
+struct Refused {
+  RefusalKind kind = RefusalKind::other;
+  std::string reason;
+};
+
+/// A newcomer to each of those who were there before it, but the first.
+struct Greeting {
+  std::uint64_t session = 0;
+  std::uint32_t number = 0;
+  Place place;
+};
+
+enum class FarewellKind : std::uint8_t { done, interrupted, trouble };
+
+/// A peer's last words.
+struct Farewell {
+  FarewellKind kind = FarewellKind::done;
+  std::string reason;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, std::string& text) {
+  if (!stream.size(text)) return false;
+  for (char& character : text)
+    if (!stream.number(character)) return false;
+  return true;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Place& place) {
+  return exchange(stream, place.address) && stream.number(place.port);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Hello& hello) {
+  for (std::uint8_t& byte : hello.magic)
+    if (!stream.number(byte)) return false;
+  if (hello.magic != Hello().magic || !stream.number(hello.version)) return false;
+  Luggage& luggage = hello.luggage;
+  return !hello.is_of_this_version() || (stream.numbers(luggage.self_test, luggage.scene, luggage.keys) && exchange(stream, hello.place));
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Welcome& welcome) {
+  if (!stream.numbers(welcome.session, welcome.terms.peer_count, welcome.terms.until, welcome.terms.window) || !stream.size(welcome.others)) return false;
+  for (Place& place : welcome.others)
+    if (!exchange(stream, place)) return false;
+  const Terms& terms = welcome.terms;
+  return terms.fit() && !welcome.others.empty() && welcome.others.size() < terms.peer_count;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Elsewhere& elsewhere) {
+  return exchange(stream, elsewhere.first);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Refused& refused) {
+  return stream.choice(refused.kind, RefusalKind::other) && exchange(stream, refused.reason);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Greeting& greeting) {
+  return stream.numbers(greeting.session, greeting.number) && exchange(stream, greeting.place);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Farewell& farewell) {
+  return stream.choice(farewell.kind, FarewellKind::trouble) && exchange(stream, farewell.reason);
+}
+
+/// With a checksum at the end.
+template <class Message>
+std::vector<std::uint8_t> bytes_of(Message message) {
+  physics::SnapshotWriter writer;
+  exchange(writer, message);
+  return writer.finish();
+}
+
+/// Nothing unless the bytes are one whole message. Of a Hello of another version only that is read.
+template <class Message>
+std::optional<Message> message_from(std::span<const std::uint8_t> bytes) {
+  physics::SnapshotReader reader(bytes);
+  Message message;
+  if (!reader.is_intact() || !exchange(reader, message)) return std::nullopt;
+  if constexpr (requires { message.is_of_this_version(); })
+    if (!message.is_of_this_version()) return message;
+  return reader.is_at_end() ? std::optional(std::move(message)) : std::nullopt;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,169 @@
+// Connections, frames, and waiting for them.
+#include "game/net/peer/meeting.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "game/net/interrupt.h"
+
+namespace rink::game {
+
+namespace {
+
+constexpr std::size_t strangers_max = 64;
+constexpr double stranger_patience_s = 5.0;
+/// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of that waits in our own.
+constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
+constexpr double wait_s_max = 0.05;
+
+}  // namespace
+
+Meeting::Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)()) : sockets_(sockets), settings_(settings), now_s_(now_s) {}
+
+void Meeting::note(ExitStatus status, const std::string& what) {
+  if (!trouble_) trouble_.emplace(status, what);
+}
+
+void Meeting::attend(double wait_s) {
+  push_all();
+  const bool is_sending = std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
+  sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? 0.001 : wait_s))), *this);
+  std::vector<rti::ConnectionId> idle;
+  for (const auto& [connection, link] : links_)
+    if (link.role == Role::stranger && now_s_() > link.since_s + stranger_patience_s) idle.push_back(connection);
+  for (const rti::ConnectionId connection : idle) dismiss(connection);
+  if (is_interrupted) throw Parting(ExitStatus::interrupted, "interrupted");
+  if (trouble_) throw Parting(*trouble_);
+}
+
+void Meeting::push_all() {
+  for (auto& [connection, link] : links_) push(connection, link);
+}
+
+void Meeting::push(rti::ConnectionId connection, Link& link) {
+  while (link.is_open && !link.is_closed && !link.outbox.empty() && sockets_.get().queued_bytes(connection) < queued_max) {
+    const std::vector<std::uint8_t>& first = link.outbox.front();
+    const std::size_t size = std::min(slice_max, first.size() - link.out_begin);
+    const rti::Bytes slice = std::as_bytes(std::span(first).subspan(link.out_begin, size));
+    sockets_.get().send(connection, std::span(&slice, 1));
+    link.out_begin += size;
+    if (link.out_begin == first.size()) link.outbox.pop_front(), link.out_begin = 0;
+  }
+}
+
+void Meeting::dial(const Place& place, Role role, peer::PeerNumber number) {
+  const rti::ConnectionId connection = sockets_.connect(place.address, place.port);
+  Link& link = links_[connection];
+  link.role = role, link.place = place, link.since_s = now_s_();
+  if (role == Role::peer) become_peer(connection, number, place);
+}
+
+void Meeting::say(rti::ConnectionId connection, FrameKind kind, const std::vector<std::uint8_t>& content) {
+  Link& link = links_.at(connection);
+  link.outbox.push_back(framed(kind, content));
+  if (link.role == Role::peer) bytes_sent_ += link.outbox.back().size();
+  push(connection, link);
+}
+
+void Meeting::dismiss(rti::ConnectionId connection) {
+  ++dismissed_;
+  links_.erase(connection);
+  sockets_.get().close(connection);
+}
+
+void Meeting::refuse(rti::ConnectionId connection, RefusalKind kind, const std::string& reason) {
+  say(connection, FrameKind::refusal, bytes_of(Refused{kind, reason}));
+  dismiss(connection);
+}
+
+void Meeting::on_open(rti::ConnectionId connection) {
+  const auto [entry, is_stranger] = links_.try_emplace(connection);
+  Link& link = entry->second;
+  link.is_open = true;
+  if (is_stranger) {
+    link.since_s = now_s_();
+    const auto is_one = [](const auto& other) { return other.second.role == Role::stranger; };
+    if (static_cast<std::size_t>(std::count_if(links_.begin(), links_.end(), is_one)) > strangers_max) dismiss(connection);
+  } else if (link.role == Role::asked) {
+    Hello hello;
+    hello.luggage = settings_.luggage, hello.place = settings_.place;
+    say(connection, FrameKind::hello, bytes_of(hello));
+  } else {
+    push(connection, link);
+  }
+}
+
+void Meeting::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
+  const auto entry = links_.find(connection);
+  if (entry == links_.end() || entry->second.is_closed) return;
+  entry->second.reader.add(bytes);
+  read_frames(connection);
+}
+
+void Meeting::read_frames(rti::ConnectionId connection) {
+  for (auto entry = links_.find(connection); entry != links_.end() && !entry->second.is_closed && !entry->second.early; entry = links_.find(connection)) {
+    Link& link = entry->second;
+    const std::optional<Frame> frame = link.reader.next(link.role == Role::peer ? peer_frame_max : stranger_frame_max);
+    if (!frame && !link.reader.is_broken()) return;
+    const Role role = link.role;
+    const bool is_good = frame && (role == Role::stranger ? hear_stranger(connection, *frame) : role == Role::asked ? hear_answer(connection, *frame) : hear_peer(link, *frame));
+    if (is_good) continue;
+    if (role == Role::stranger) return dismiss(connection);
+    note(role == Role::peer ? ExitStatus::failed : ExitStatus::no_server,
+         role == Role::peer ? name_of(link) + " sent what is no message" : "what answers at " + link.place.text() + " is no peer of this version");
+    link.is_closed = true;
+    sockets_.get().close(connection);
+  }
+}
+
+void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) {
+  const auto entry = links_.find(connection);
+  if (entry == links_.end()) return;
+  Link& link = entry->second;
+  const std::string why = std::string(rti::to_string(reason)) + (detail.empty() ? "" : ", " + detail);
+  link.is_closed = true;
+  link.outbox.clear();
+  if (link.role == Role::peer && !link.is_done) note(ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
+  if (link.role == Role::asked) note(ExitStatus::no_server, "no peer answers at " + link.place.text() + ": " + why);
+  if (link.role != Role::peer) links_.erase(entry);
+}
+
+bool Meeting::hear_peer(Link& link, const Frame& frame) {
+  if (frame.kind == FrameKind::mail) {
+    link.inbox.push_back(frame.content);
+    return !link.is_done;
+  }
+  const auto farewell = frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
+  if (!farewell) return false;
+  link.is_done = true;
+  if (farewell->kind == FarewellKind::interrupted) note(ExitStatus::interrupted, name_of(link) + " was interrupted, so all end");
+  if (farewell->kind == FarewellKind::trouble) note(ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
+  return true;
+}
+
+void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) { say(*peers_[to], FrameKind::mail, bytes); }
+
+std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
+  Link& link = link_of(from);
+  for (const double give_up_s = now_s_() + settings_.patience_s; link.inbox.empty();) {
+    if (link.is_done) throw Parting(ExitStatus::connection_lost, name_of(link) + " left before the end");
+    if (now_s_() > give_up_s) throw Parting(ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s");
+    attend(wait_s_max);
+  }
+  std::vector<std::uint8_t> first = std::move(link.inbox.front());
+  link.inbox.pop_front();
+  return first;
+}
+
+void Meeting::leave(const Farewell& farewell) {
+  for (auto& [connection, link] : links_)
+    if (link.role == Role::peer && !link.is_closed) say(connection, FrameKind::farewell, bytes_of(farewell));
+  const double give_up_s = now_s_() + (farewell.kind == FarewellKind::done ? settings_.patience_s : 0.5);
+  const auto is_sending = [&](const auto& entry) { return !entry.second.is_closed && entry.second.is_open && (!entry.second.outbox.empty() || sockets_.get().queued_bytes(entry.first) > 0); };
+  while (std::any_of(links_.begin(), links_.end(), is_sending) && now_s_() < give_up_s) {
+    push_all();
+    sockets_.get().poll(std::chrono::milliseconds(1), *this);
+  }
+}
+
+}  // namespace rink::game

@@ -1,0 +1,149 @@
+// Who is let in, as which number, and who is told what.
+#include <cinttypes>
+#include <cstdio>
+#include <utility>
+
+#include "game/net/peer/meeting.h"
+
+namespace rink::game {
+
+namespace {
+
+constexpr std::size_t address_max = 253;  // characters, of a host's name
+
+std::string in_hexadecimal(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, number);
+  return text;
+}
+
+/// What is different about a newcomer, with both sides; nothing if nothing is.
+std::optional<std::string> difference(const Luggage& theirs, const Luggage& ours) {
+  const auto both = [](std::uint64_t a, std::uint64_t b) { return in_hexadecimal(a) + ", here it is " + in_hexadecimal(b); };
+  if (theirs.scene != ours.scene) return "it has another scene: its fingerprint is " + both(theirs.scene, ours.scene);
+  if (theirs.self_test != ours.self_test) return "it is a build that computes other bits: the hash of its self-test is " + both(theirs.self_test, ours.self_test);
+  if (theirs.keys != ours.keys) return "it has other keys: their hash is " + both(theirs.keys, ours.keys);
+  return std::nullopt;
+}
+
+bool is_reachable(const Place& place) { return !place.address.empty() && place.address.size() <= address_max && place.port != 0; }
+
+}  // namespace
+
+void Meeting::found(const Terms& terms) {
+  terms_ = terms;
+  is_in_ = true;
+  peers_.resize(terms.peer_count);
+  places_ = {settings_.place};
+}
+
+void Meeting::join(const Place& any) {
+  dial(any, Role::asked, 0);
+  for (const double give_up_s = now_s_() + settings_.patience_s; !is_in_;) {
+    if (now_s_() > give_up_s) throw Parting(ExitStatus::no_server, "no peer has answered at " + any.text());
+    attend(0.05);
+  }
+}
+
+bool Meeting::are_all_here() const {
+  for (peer::PeerNumber k = 0; k < peers_.size(); ++k)
+    if (k != number_ && (!peers_[k] || !links_.at(*peers_[k]).is_open)) return false;
+  return true;
+}
+
+void Meeting::gather() {
+  while (!are_all_here()) attend(0.05);
+}
+
+void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Place& place) {
+  Link& link = links_.at(connection);
+  link.role = Role::peer, link.number = number, link.place = place;
+  peers_[number] = connection;
+}
+
+/// False for what no peer would say.
+bool Meeting::hear_stranger(rti::ConnectionId connection, const Frame& frame) {
+  if (frame.kind == FrameKind::hello) {
+    const auto hello = message_from<Hello>(frame.content);
+    if (hello) answer(connection, *hello);
+    return hello.has_value();
+  }
+  const auto greeting = frame.kind == FrameKind::greeting ? message_from<Greeting>(frame.content) : std::nullopt;
+  if (greeting) admit(connection, *greeting);
+  return greeting.has_value();
+}
+
+/// The first peer gives the numbers, so that those who come at the same time through different peers get different ones.
+void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
+  if (!hello.is_of_this_version())
+    return refuse(connection, RefusalKind::wrong_version,
+                  "it speaks version " + std::to_string(hello.version) + " of the peers' protocol, here it is version " + std::to_string(peer_protocol_version));
+  if (!is_in_) return refuse(connection, RefusalKind::other, "the peer that it asked is itself not in yet");
+  if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
+  if (number_ != 0) {
+    say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{places_[0]}));
+    return;
+  }
+  if (!is_reachable(hello.place)) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
+  if (places_.size() == terms_.peer_count) return refuse(connection, RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers are there already");
+  become_peer(connection, static_cast<peer::PeerNumber>(places_.size()), hello.place);
+  say(connection, FrameKind::welcome, bytes_of(Welcome{settings_.session, terms_, places_}));
+  places_.push_back(hello.place);
+}
+
+void Meeting::admit(rti::ConnectionId connection, const Greeting& greeting) {
+  if (!is_in_) {
+    links_.at(connection).early = greeting;
+    return;
+  }
+  const bool is_due = greeting.session == settings_.session && greeting.number > number_ && greeting.number < terms_.peer_count && !peers_[greeting.number];
+  if (!is_due || !is_reachable(greeting.place)) return refuse(connection, RefusalKind::other, "it is none of this session's peers");
+  become_peer(connection, greeting.number, greeting.place);
+}
+
+bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
+  if (frame.kind == FrameKind::refusal) {
+    const auto refused = message_from<Refused>(frame.content);
+    if (refused)
+      note(refused->kind == RefusalKind::wrong_version ? ExitStatus::wrong_version : ExitStatus::not_admitted,
+           "the peer at " + links_.at(connection).place.text() + " does not let this one in: " + refused->reason);
+    return refused.has_value();
+  }
+  if (frame.kind == FrameKind::elsewhere) {
+    const auto elsewhere = message_from<Elsewhere>(frame.content);
+    if (!elsewhere || !is_reachable(elsewhere->first) || redirections_++ > 0) return false;
+    links_.erase(connection);
+    sockets_.get().close(connection);
+    dial(elsewhere->first, Role::asked, 0);
+    return true;
+  }
+  const auto welcome = frame.kind == FrameKind::welcome ? message_from<Welcome>(frame.content) : std::nullopt;
+  if (!welcome) return false;
+  for (const Place& place : welcome->others)
+    if (!is_reachable(place)) return false;
+  enter(connection, *welcome);
+  return true;
+}
+
+void Meeting::enter(rti::ConnectionId connection, const Welcome& welcome) {
+  is_in_ = true;
+  settings_.session = welcome.session;
+  terms_ = welcome.terms;
+  number_ = static_cast<peer::PeerNumber>(welcome.others.size());
+  places_ = welcome.others;
+  peers_.resize(terms_.peer_count);
+  become_peer(connection, 0, places_[0]);
+  for (peer::PeerNumber k = 1; k < number_; ++k) {
+    dial(places_[k], Role::peer, k);
+    say(*peers_[k], FrameKind::greeting, bytes_of(Greeting{settings_.session, number_, settings_.place}));
+  }
+  std::vector<rti::ConnectionId> early;
+  for (const auto& [other, link] : links_)
+    if (link.early) early.push_back(other);
+  for (const rti::ConnectionId other : early) {
+    admit(other, *std::exchange(links_.at(other).early, std::nullopt));
+    read_frames(other);
+  }
+}
+
+}  // namespace rink::game

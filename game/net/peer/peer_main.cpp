@@ -1,0 +1,192 @@
+// rink peer: one of the processes that share a simulation without a server, equal to one engine's bit for bit.
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+#include "game/control/key_log.h"
+#include "game/model/scene_file.h"
+#include "game/net/address.h"
+#include "game/net/exit_status.h"
+#include "game/net/flags.h"
+#include "game/net/interrupt.h"
+#include "game/net/peer/meeting.h"
+#include "game/net/peer/shared_game.h"
+
+namespace {
+
+using namespace rink;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string scene, keys, listen, join, transport = "tcp";
+  std::uint64_t seed = 0;
+  std::uint32_t bats = 0;
+  double patience_s = 30.0;
+  game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02};
+};
+
+double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
+
+double processor_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+game::SharedGame game_of(const Options& options) {
+  game::Scene scene = game::load_scene(options.scene);
+  if (options.bats > 0) scene = game::scaled_to_bats(std::move(scene), options.bats);
+  if (options.seed > 0) scene = game::with_seed(std::move(scene), options.seed);
+  std::vector<game::InputEvent> recorded;
+  if (!options.keys.empty()) {
+    game::KeyLog log = game::read_key_log(std::filesystem::path(options.keys));
+    game::require_fit(log, scene, options.keys);
+    recorded = std::move(log.events);
+  }
+  return game::SharedGame(scene, recorded);
+}
+
+/// Where this peer is to listen. Others are told the address, so it must be one that they can use.
+game::Place place_of(const Options& options) {
+  const auto is_here = [](const std::string& address) { return address.starts_with("127.") || address == "::1" || address == "localhost"; };
+  if (options.listen.empty()) {
+    if (options.join.empty()) throw std::invalid_argument("--listen ADDRESS:PORT is missing, for the first peer; all others give --join HOST:PORT");
+    if (options.transport == "tcp" && !is_here(game::address_and_port("--join", options.join).first))
+      throw std::invalid_argument("--listen ADDRESS:0 is missing: with peers on other machines, the address at which they reach this one");
+    return {"127.0.0.1", 0};
+  }
+  const auto [address, port] = game::address_and_port("--listen", options.listen, 0);
+  if (address == "0.0.0.0" || address == "::") throw std::invalid_argument("--listen: others are told this address, and nobody can connect to " + address + ": expected one of this machine's own");
+  return {address, port};
+}
+
+Json report_of(const game::PlayedPart& part, const game::Meeting& meeting, double playing_s) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
+  const peer::PeerCounters& counters = part.counters;
+  return {{"peer", meeting.number()},
+          {"peers", meeting.terms().peer_count},
+          {"time", meeting.terms().until},
+          {"windows", counters.windows},
+          {"repeats", counters.repeats},
+          {"owned", part.owned},
+          {"ghosts", part.ghosts},
+          {"mean_ghosts", static_cast<double>(counters.ghost_windows) / static_cast<double>(counters.windows + 1)},
+          {"halo", part.halo},
+          {"own_events", counters.own_events},
+          {"ghost_events", counters.ghost_events},
+          {"hand_overs", counters.hand_overs},
+          {"arrival_bytes", counters.arrival_bytes},
+          {"claim_bytes", counters.claim_bytes},
+          {"verdict_bytes", counters.verdict_bytes},
+          {"result_bytes", part.result_bytes},
+          {"bytes_sent", meeting.bytes_sent()},
+          {"strangers_dismissed", meeting.dismissed()},
+          {"wall_s", playing_s},
+          {"cpu_s", processor_s()},
+          {"hash", hash}};
+}
+
+/// From the first word to the last; whoever is connected is told why it ends early.
+game::ExitStatus share(const Options& options, const game::SharedGame& shared, game::Meeting& meeting) {
+  try {
+    if (options.join.empty()) {
+      meeting.found(options.terms);
+    } else {
+      const auto [address, port] = game::address_and_port("--join", options.join);
+      meeting.join({address, port});
+      std::printf("peer %u of %u\n", meeting.number(), meeting.terms().peer_count);
+      std::fflush(stdout);
+    }
+    meeting.gather();
+    std::printf("playing\n");
+    std::fflush(stdout);
+    const double start_s = now_s();
+    const game::PlayedPart part = shared.play(meeting.terms(), meeting.number(), meeting);
+    const double playing_s = now_s() - start_s;
+    meeting.leave({});
+    std::printf("%s\n", report_of(part, meeting, playing_s).dump(2).c_str());
+    return game::ExitStatus::ok;
+  } catch (const game::Parting& parting) {
+    spdlog::error("{}", parting.what());
+    meeting.leave({parting.status() == game::ExitStatus::interrupted ? game::FarewellKind::interrupted : game::FarewellKind::trouble, parting.what()});
+    return parting.status();
+  } catch (const peer::ProtocolError& error) {
+    spdlog::error("{}", error.what());
+    meeting.leave({game::FarewellKind::trouble, error.what()});
+    return game::ExitStatus::failed;
+  }
+}
+
+game::ExitStatus run(const Options& options) {
+  const game::SharedGame shared = game_of(options);
+  game::Place place = place_of(options);
+  rti::SocketTransport sockets(options.transport);
+  place.port = sockets.listen(place.address, place.port);
+  std::printf("listening on %s\n", place.text().c_str());
+  std::fflush(stdout);
+  std::random_device device;
+  const std::uint64_t upper = device();
+  const std::uint64_t session = upper << 32 | device();
+  game::Meeting meeting(sockets, {.place = place, .luggage = shared.luggage(), .session = session, .patience_s = options.patience_s}, now_s);
+  return share(options, shared, meeting);
+}
+
+game::ExitStatus run_or_explain(const Options& options) {
+  try {
+    return run(options);
+  } catch (const rti::TransportError& error) {
+    spdlog::error("{}", error.what());
+    using Kind = rti::TransportError::Kind;
+    return error.kind() == Kind::in_use || error.kind() == Kind::no_such_address || error.kind() == Kind::no_permission ? game::ExitStatus::address_in_use : game::ExitStatus::failed;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return game::ExitStatus::bad_input;
+  }
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.description("One of the peers that share a simulation without a server: each owns and simulates the bodies in its part of the field, and all together have, bit for bit, what\n"
+                  "one engine has. The first one says how many and how long; all others join through any that is there. When all are there they play, each prints what it did\n"
+                  "and the hash of the whole, which is that of rink simulate.");
+  app.name("rink peer");
+  app.add_option("--scene", options.scene, "a scene file or the name of a preset; the same for all, without goals")->required();
+  app.add_option("--keys", options.keys, "a recorded key log to play, the same for all (default: the scene's scripted keys only)");
+  app.add_option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")->capture_default_str();
+  app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
+  app.add_option("--listen", options.listen, "where others reach this peer; port 0 takes any free one (default of those who join a peer of this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT");
+  CLI::Option* join = app.add_option("--join", options.join, "any peer that is there already; without this, become the first one")->type_name("HOST:PORT");
+  app.add_option("--peers", options.terms.peer_count, "how many there will be; the first peer's to say")->check(CLI::Range(2u, game::peers_max))->excludes(join)->capture_default_str();
+  app.add_option("--until", options.terms.until, "simulated time at which to stop [s]; the first peer's to say")->check(game::number_from(1e-6, game::seconds_max))->excludes(join)->capture_default_str();
+  app.add_option("--window", options.terms.window, "simulated time from one agreement to the next [s]; the first peer's to say")->check(game::number_from(1e-4, 10.0))->excludes(join)->capture_default_str();
+  app.add_option("--transport", options.transport, "what carries the bytes: tcp, or shm between processes of this machine, where a port is a name; the same for all")->check(CLI::IsMember({"tcp", "shm"}))->capture_default_str();
+  app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();
+  app.footer("Example, in two terminals:\n  ./rink peer --scene arena --peers 2 --until 5 --listen 127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"
+             "Exit status: 0 done, 1 failed or a peer that said what cannot be, 2 bad flag or file, 10 address in use, 11 no peer there, 12 wrong protocol version, 14 not let in,\n"
+             "16 a peer is gone, 130 interrupted.");
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  game::speak_as("rink-peer");
+  CLI::App app;
+  Options options;
+  add_options(app, options);
+  try {
+    app.parse(count, values);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
+  }
+  game::hear_interrupts();
+  return static_cast<int>(run_or_explain(options));
+}

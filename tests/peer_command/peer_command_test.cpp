@@ -1,0 +1,282 @@
+// The command rink-peer: processes that find each other, play to the hash of one engine, refuse who is different, and notice who dies.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <deque>
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include "game/control/key_log.h"
+#include "game/control/playing.h"
+#include "game/model/scene_file.h"
+#include "game/net/address.h"
+#include "game/net/exit_status.h"
+#include "game/net/peer/frames.h"
+#include "game/net/peer/shared_game.h"
+#include "loadgen/process.h"
+#include "rti/transport/tcp.h"
+#include "tests/places.h"
+#include "tests/temporary_folder.h"
+
+namespace rink::game {
+namespace {
+
+using loadgen::Process;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+using Words = std::vector<std::string>;
+
+const std::string small_scene = R"(name = "small"
+[field]
+length = 5.0
+width = 3.0
+[drag]
+pucks = 0.1
+bats = 3.0
+[materials]
+restitution = 0.95
+[[population]]
+name = "post"
+kind = "post"
+count = 4
+radius = 0.1
+[[population]]
+name = "bat"
+kind = "bat"
+count = 8
+mass = 5.0
+[[population]]
+name = "puck"
+kind = "puck"
+count = 150
+mean_speed = 1.5
+speeds = "maxwell"
+)";
+
+class PeerCommand : public testing::Test {
+ protected:
+  PeerCommand() : folder_("peers") { std::ofstream(folder_ / "small.toml") << small_scene; }
+
+  std::string scene() const { return (folder_ / "small.toml").string(); }
+
+  /// A peer that has said where it listens.
+  Process& start(Words arguments, const std::string& scene_file = {}) {
+    const Words scene_words{"--scene", scene_file.empty() ? scene() : scene_file};
+    arguments.insert(arguments.begin(), scene_words.begin(), scene_words.end());
+    Process& peer = *peers_.emplace_back(std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer", arguments, std::vector<int>{}));
+    until([&] { return peer.line_after("listening on ") || peer.ending(); });
+    return peer;
+  }
+  Process& found(int count, const std::string& until, Words further = {}) {
+    further.insert(further.end(), {"--peers", std::to_string(count), "--until", until, "--listen", "127.0.0.1:0"});
+    return start(further);
+  }
+  Process& join(const Process& other, Words further = {}) {
+    further.insert(further.end(), {"--join", place_of(other)});
+    return start(further);
+  }
+  static std::string place_of(const Process& peer) { return peer.line_after("listening on ").value_or("nowhere"); }
+
+  bool until(const std::function<bool()>& is_reached, std::chrono::seconds limit = 30s) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!is_reached() && std::chrono::steady_clock::now() < end)
+      for (const auto& peer : peers_) peer->attend(5ms);
+    return is_reached();
+  }
+  bool ends(const Process& peer, std::chrono::seconds limit = 30s) {
+    return until([&] { return peer.ending().has_value(); }, limit);
+  }
+  bool are_playing(std::initializer_list<const Process*> peers) {
+    return until([&] { return std::all_of(peers.begin(), peers.end(), [](const Process* peer) { return peer->line_after("playing").has_value(); }); });
+  }
+  static std::string hash_of(const Process& peer) { return peer.line_after("  \"hash\": ").value_or(peer.last_words()); }
+  /// As a report prints it.
+  static std::string printed(std::uint64_t hash) {
+    char text[32];
+    std::snprintf(text, sizeof text, "\"%016llx\"", static_cast<unsigned long long>(hash));
+    return text;
+  }
+
+  test::TemporaryFolder folder_;
+  std::deque<std::unique_ptr<Process>> peers_;
+};
+
+TEST_F(PeerCommand, EndsInTheHashOfOneEngineForTwoAndFourPeersOverTcpAndSharedMemory) {
+  Game one(load_scene(scene()));
+  one.advance(2.0);
+  for (const char* transport : {"tcp", "shm"})
+    for (const int count : {2, 4}) {
+      const Process& first = found(count, "2", {"--transport", transport});
+      std::vector<const Process*> all{&first};
+      // Each asks another one that is there.
+      while (static_cast<int>(all.size()) < count) all.push_back(&join(*all.back(), {"--transport", transport}));
+      for (const Process* peer : all) {
+        ASSERT_TRUE(ends(*peer));
+        EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+        EXPECT_EQ(hash_of(*peer), printed(one.hash())) << count << " peers over " << transport;
+      }
+    }
+}
+
+TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
+  const Scene shared = load_scene(scene());
+  Playing playing(shared, {"chaser", "random"}, 7, 3.0);
+  playing.advance(3.0);
+  KeyLog log = key_log_for(shared);
+  log.events = playing.keys();
+  const std::string file = (folder_ / "game.keys").string();
+  write_key_log(std::filesystem::path(file), log);
+  Process& first = found(3, "3", {"--keys", file, "--window", "0.07"});
+  const Process& keyless = join(first);
+  ASSERT_TRUE(ends(keyless));
+  EXPECT_EQ(keyless.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
+  EXPECT_THAT(keyless.last_words(), HasSubstr("it has other keys"));
+  const std::vector<const Process*> all{&first, &join(first, {"--keys", file}), &join(first, {"--keys", file})};
+  for (const Process* peer : all) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), printed(playing.game().hash()));
+  }
+}
+
+TEST_F(PeerCommand, RefusesOtherScenesAndOneTooManyByNameAndGoesOn) {
+  Process& first = found(2, "1");
+  std::ofstream(folder_ / "other.toml") << small_scene << "[match]\nface_off_delay = 2.0\n";
+  const Process& seeded = join(first, {"--seed", "9"});
+  ASSERT_TRUE(ends(seeded));
+  EXPECT_EQ(seeded.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
+  EXPECT_THAT(seeded.last_words(), testing::AllOf(HasSubstr("does not let this one in"), HasSubstr("another scene: its fingerprint is"), HasSubstr("here it is")));
+  const Process& other = start({"--join", place_of(first)}, (folder_ / "other.toml").string());
+  ASSERT_TRUE(ends(other));
+  EXPECT_THAT(other.last_words(), HasSubstr("another scene"));
+  const Process& second = join(first);
+  ASSERT_TRUE(ends(second) && ends(first));
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+
+  Process& crowded = found(2, "1000");
+  const Process& last = join(crowded);
+  ASSERT_TRUE(are_playing({&crowded, &last}));
+  const Process& third = join(last);
+  ASSERT_TRUE(ends(third));
+  EXPECT_EQ(third.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
+  EXPECT_THAT(third.last_words(), HasSubstr("all 2 peers are there already"));
+  EXPECT_FALSE(crowded.ending());
+}
+
+TEST_F(PeerCommand, NoticesWithinTwoSecondsThatAPeerWasKilledAndNamesIt) {
+  Process& first = found(3, "10000");
+  Process& second = join(first);
+  Process& third = join(second);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  const std::string killed = "peer 1 (" + place_of(second) + ") is gone";
+  ASSERT_EQ(kill(second.id(), SIGKILL), 0);
+  for (const Process* peer : {&first, &third}) {
+    ASSERT_TRUE(ends(*peer, 2s));
+    EXPECT_EQ(peer->ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+    EXPECT_THAT(peer->last_words(), HasSubstr(killed));
+  }
+}
+
+TEST_F(PeerCommand, InterruptedEndsAllInGoodOrder) {
+  Process& first = found(2, "10000");
+  Process& second = join(first);
+  ASSERT_TRUE(are_playing({&first, &second}));
+  second.stop(2000ms);
+  ASSERT_TRUE(ends(first, 2s));
+  ASSERT_TRUE(second.ending());
+  EXPECT_EQ(second.ending()->exit_status, 130);
+  EXPECT_EQ(first.ending()->exit_status, 130);
+  EXPECT_THAT(first.last_words(), HasSubstr("was interrupted, so all end"));
+}
+
+TEST_F(PeerCommand, SaysWhatItCannotPlay) {
+  const Process& goals = start({"--listen", "127.0.0.1:0"}, "crowd");
+  ASSERT_TRUE(ends(goals));
+  EXPECT_EQ(goals.ending()->exit_status, 2);
+  EXPECT_THAT(goals.last_words(), HasSubstr("scene 'crowd' has goals (field.goal_width)"));
+  const Process& alone = start({"--join", "127.0.0.1:1"});
+  ASSERT_TRUE(ends(alone));
+  EXPECT_EQ(alone.ending()->exit_status, static_cast<int>(ExitStatus::no_server));
+  EXPECT_THAT(alone.last_words(), HasSubstr("no peer answers at 127.0.0.1:1"));
+}
+
+/// Says `bytes` to a peer, and hears all until that closes the connection.
+class Stranger final : public rti::TransportListener {
+ public:
+  Stranger(const std::string& place, std::span<const std::uint8_t> bytes) {
+    const auto [address, port] = address_and_port("place", place);
+    connection_ = transport_.connect(address, port);
+    const auto end = std::chrono::steady_clock::now() + 10s;
+    while (!is_closed_ && std::chrono::steady_clock::now() < end) {
+      transport_.poll(10ms, *this);
+      if (is_open_ && !bytes.empty()) {
+        const rti::Bytes part = std::as_bytes(bytes);
+        transport_.send(connection_, std::span(&part, 1));
+        bytes = {};
+      }
+    }
+  }
+  bool is_closed() const { return is_closed_; }
+  std::optional<Frame> frame() { return reader_.next(stranger_frame_max); }
+
+ private:
+  void on_open(rti::ConnectionId) override { is_open_ = true; }
+  void on_bytes(rti::ConnectionId, rti::Bytes bytes) override { reader_.add(bytes); }
+  void on_close(rti::ConnectionId, rti::CloseReason, const std::string&) override { is_closed_ = true; }
+
+  rti::TcpTransport transport_;
+  rti::ConnectionId connection_ = 0;
+  bool is_open_ = false, is_closed_ = false;
+  FrameReader reader_;
+};
+
+TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
+  Process& first = found(2, "1");
+  const Luggage luggage = SharedGame(load_scene(scene()), {}).luggage();
+  const auto answer_to = [&](const Hello& hello) {
+    Stranger stranger(place_of(first), framed(FrameKind::hello, bytes_of(hello)));
+    const auto frame = stranger.frame();
+    return frame && frame->kind == FrameKind::refusal ? message_from<Refused>(frame->content) : std::nullopt;
+  };
+  Hello hello;
+  hello.luggage = luggage, hello.place = {"127.0.0.1", 1};
+  hello.version = peer_protocol_version + 1;
+  const auto version = answer_to(hello);
+  ASSERT_TRUE(version);
+  EXPECT_EQ(version->kind, RefusalKind::wrong_version);
+  EXPECT_THAT(version->reason, HasSubstr("speaks version 2 of the peers' protocol, here it is version 1"));
+  hello.version = peer_protocol_version;
+  ++hello.luggage.self_test;
+  const auto build = answer_to(hello);
+  ASSERT_TRUE(build);
+  EXPECT_THAT(build->reason, HasSubstr("a build that computes other bits"));
+  const Process& second = join(first);
+  ASSERT_TRUE(ends(second) && ends(first));
+  EXPECT_EQ(hash_of(first), hash_of(second));
+}
+
+TEST_F(PeerCommand, LosesNoMoreThanTheConnectionToStrangersWhoSayAnything) {
+  Process& first = found(2, "1");
+  std::vector<std::vector<std::uint8_t>> words{{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '\r', '\n'}, {0, 0, 0, 0, 0}, {255, 255, 255, 255, 0}, {1, 0, 0, 0, 9}};
+  for (const FrameKind kind : {FrameKind::hello, FrameKind::welcome, FrameKind::elsewhere, FrameKind::refusal, FrameKind::greeting, FrameKind::mail, FrameKind::farewell})
+    words.push_back(framed(kind, std::vector<std::uint8_t>(40, 0x55)));
+  words.push_back(framed(FrameKind::greeting, bytes_of(Greeting{.session = 1, .number = 1, .place = {"127.0.0.1", 1}})));
+  Hello damaged;
+  damaged.place = {"127.0.0.1", 1};
+  std::vector<std::uint8_t> content = bytes_of(damaged);
+  for (std::size_t k = 0; k < content.size(); ++k) {
+    std::vector<std::uint8_t> other = content;
+    other[k] ^= 0x10;
+    words.push_back(framed(FrameKind::hello, other));
+  }
+  for (const auto& bytes : words) EXPECT_TRUE(Stranger(place_of(first), bytes).is_closed());
+  const Process& second = join(first);
+  ASSERT_TRUE(ends(second) && ends(first));
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+  EXPECT_EQ(hash_of(first), hash_of(second));
+}
+
+}  // namespace
+}  // namespace rink::game
