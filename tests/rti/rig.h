@@ -149,7 +149,8 @@ class Recorder : public FederateAmbassador {
     }
   }
   /// What it registered itself and gave away was never discovered.
-  void attributes_in_scope(ObjectHandle object) override { objects.try_emplace(object.value, Known{vessel, "", false, {}, 0, {}}).first->second.is_in_scope = true; }
+  /// One's own that was given up is never discovered: a vessel or a ferry, whose attributes begin with a vessel's.
+  void attributes_in_scope(ObjectHandle object) override { objects.try_emplace(object.value, Known{ferry, "", false, {}, 0, {}}).first->second.is_in_scope = true; }
   void attributes_out_of_scope(ObjectHandle object) override { objects.at(object.value).is_in_scope = false; }
   void remove_object_instance(ObjectHandle object) override {
     objects.erase(object.value);
