@@ -115,8 +115,7 @@ Outcome FederationExecution::Parts::take_spare_update(std::uint32_t slot, Reader
   SpareUpdateMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object && objects_.was_registered({message.object})) return ++counters_.late_requests, std::nullopt;
-  if (object == no_object) return Violation::unknown_name;
+  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
   const AttributeSet attributes{message.attributes};
   if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   objects_[object].valued = objects_[object].valued.without(attributes);

@@ -12,18 +12,6 @@ namespace {
 std::string as_text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 }  // namespace
 
-namespace {
-
-/// As the model says.
-AttributeSet best_effort_of(const ObjectClass& object_class) {
-  AttributeSet set;
-  for (std::uint32_t i = 0; i < object_class.attributes.size(); ++i)
-    if (object_class.attributes[i].transportation == Transportation::best_effort) set.insert({i});
-  return set;
-}
-
-}  // namespace
-
 Outcome FederationExecution::Parts::take_object_request(std::uint32_t slot, MessageKind kind, Reader& reader) {
   switch (kind) {
     case MessageKind::instance_names: return take_names(slot, reader);
@@ -92,7 +80,7 @@ Outcome FederationExecution::Parts::delete_locally(std::uint32_t slot, Reader& r
   LocalDeleteMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const ObjectSlot object = objects_.find({message.object});
-  if (object == no_object) return objects_.was_registered({message.object}) ? (++counters_.late_requests, Outcome()) : Violation::unknown_name;
+  if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
   if (!ownership_.owned_by(slot, object).is_empty()) return Violation::not_owned;
   FederateInterest& interest = interest_.of(slot);
   if (!interest.known.contains(object)) return ++counters_.late_requests, std::nullopt;
@@ -156,12 +144,12 @@ Outcome FederationExecution::Parts::change_transportation(std::uint32_t slot, Re
     return std::nullopt;
   }
   const ObjectSlot object = objects_.find({message.number});
-  if (object == no_object) return objects_.was_registered({message.number}) ? (++counters_.late_requests, Outcome()) : Violation::unknown_name;
+  if (object == no_object) return is_late({message.number}) ? Outcome() : Violation::unknown_name;
   const AttributeSet attributes{message.attributes};
   if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).includes(attributes)) return Violation::unknown_name;
   if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-  const AttributeSet before = changed != nullptr ? *changed : best_effort_of(fom_.at(ObjectClassHandle{objects_[object].object_class}));
+  const AttributeSet before = changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
   changed_transportation_[objects_[object].handle] = transportation == Transportation::best_effort ? before | attributes : before.without(attributes);
   say(federate.tail, answer);
   return std::nullopt;
@@ -183,7 +171,7 @@ Outcome FederationExecution::Parts::query_transportation(std::uint32_t slot, Rea
     if (const Outcome outcome = find_known(slot, {message.number}, object); outcome || object == no_object) return outcome;
     if (!fom_.attributes(ObjectClassHandle{objects_[object].object_class}).contains({message.which})) return Violation::unknown_name;
     const AttributeSet* changed = changed_transportation_.find(objects_[object].handle);
-    const AttributeSet best_effort = changed != nullptr ? *changed : best_effort_of(fom_.at(ObjectClassHandle{objects_[object].object_class}));
+    const AttributeSet best_effort = changed != nullptr ? *changed : best_effort_[objects_[object].object_class];
     if (best_effort.contains({message.which})) found = Transportation::best_effort;
   }
   answer.transportation = static_cast<std::uint8_t>(found);

@@ -62,9 +62,7 @@ bool FederationExecution::Parts::is_known_to(std::uint32_t slot, ObjectSlot obje
 Outcome FederationExecution::Parts::find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
   object = objects_.find(handle);
   if (object != no_object) return is_known_to(slot, object) ? Outcome() : Violation::unknown_name;
-  if (!objects_.was_registered(handle)) return Violation::unknown_name;
-  ++counters_.late_requests;  // it was deleted while this was on its way
-  return std::nullopt;
+  return is_late(handle) ? Outcome() : Violation::unknown_name;
 }
 
 AttributeSet FederationExecution::Parts::acquirable(std::uint32_t slot, ObjectSlot object) const {
