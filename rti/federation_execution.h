@@ -46,6 +46,7 @@ struct FederationSettings {
   std::uint32_t objects_per_federate_max = object_block;
   std::size_t name_bytes_per_federate_max = 8u << 20;           ///< of all the objects that it ever registers
   std::size_t interaction_bytes_per_flush_max = 512u << 10;     ///< that one federate says to others between two flushes, 16 for each and its parameters
+  std::size_t entry_bytes_per_flush_max = 512u << 10;           ///< to one federate: of objects that came into scope, and their states; less what it has not taken yet
   std::uint32_t timed_max = 1u << 20;       ///< messages in time-stamp order that wait for somebody, or can still be taken back
   std::size_t timed_bytes_max = 256u << 20; ///< of what they say
   std::uint32_t timed_per_federate_max = 1u << 18;              ///< of those that their sender can still take back
@@ -64,6 +65,7 @@ struct FederationCounters {
   std::uint64_t updates_held_back = 0;  ///< records that a federate which doesn't read was not sent; its newest state follows when it does
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
+  std::uint64_t entries_postponed = 0;  ///< of those, told by a later flush for want of room
   std::uint64_t ownership_notices_sent = 0;  ///< objects told of; one that is told n things counts n times
   std::uint64_t late_requests = 0;           ///< of objects that were deleted meanwhile: ignored
   std::uint64_t joins = 0, resigns = 0;

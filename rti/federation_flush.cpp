@@ -99,15 +99,18 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   frame_stamp_.reset();
   is_keyframe_begun_ = false;
   pieces_.clear();
+  told_whole_.clear();
+  is_all_told_ = false;
   const std::uint64_t before = counters_.updates_sent;
   begin_datagrams(federate, outlet);
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
-  write_scope_events(slot);
+  const std::size_t entry_end = scratch_.size() + entry_room(slot, outlet);
+  write_scope_events(slot, entry_end);
   const bool is_held = holds_back(slot, outlet);
   if (is_held) {
     hold_back(slot);
   } else {
-    write_fresh_states(slot);
+    write_fresh_states(slot, entry_end);
     if (federate.way && !federate.way->due.empty()) write_due_states(slot);
     gather_runs(slot);
     send_datagrams(federate, outlet);
@@ -119,11 +122,9 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   federate.tail_block.close();
   federate.looked_at = federate.said = 0;
   FederateInterest& interest = interest_.of(slot);
-  if (interest.has_fresh && !is_held) {
-    interest.fresh.clear();
-    interest.has_fresh = false;
-  }
   interest.events.clear();
+  if (is_all_told_) interest.has_fresh = false;
+  for (const ObjectSlot told : told_whole_) interest.fresh.erase(told);  // not before: their updates in this flush are part of what was told
   if (pieces_.empty() && scratch_.size() == frame_header_size) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
     say(scratch_, HeartbeatMessage{});
@@ -137,35 +138,73 @@ void FederationExecution::Parts::write_stamp(const Stamp& stamp) {
   say(scratch_, StampMessage{stamp});
 }
 
-void FederationExecution::Parts::write_scope_events(std::uint32_t slot) {
+/// Who comes into a large world would be closed for a queue that no reader empties in one tick: what does not fit is told by the next flushes.
+std::size_t FederationExecution::Parts::entry_room(std::uint32_t slot, const Outlet& outlet) const {
+  const FederateInterest& interest = interest_.of(slot);
+  if (interest.events.empty() && !interest.has_fresh && !interest.has_unannounced) return 0;
+  return settings_.entry_bytes_per_flush_max - std::min(settings_.entry_bytes_per_flush_max, outlet.waiting_bytes(federates_[slot].connection));
+}
+
+/// Up to `end` bytes in `scratch_`.
+void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
+  if (interest.has_unannounced) {
+    interest.announced_to = interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
+      if (scratch_.size() >= end) return false;
+      announce(slot, object);
+      return true;
+    });
+    interest.has_unannounced = scratch_.size() >= end;
+  }
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
     if (!object.is_alive) continue;  // it came and went between two flushes, or its removal is on its way
     if (event.transition == im::Transition::left) {
-      if (interest.known.contains(event.slot)) say(scratch_, OutOfScopeMessage{object.handle.value});
-      continue;
+      if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
+      else if (interest.known.contains(event.slot)) say(scratch_, OutOfScopeMessage{object.handle.value});
+    } else if (scratch_.size() < end) {
+      announce(slot, event.slot);
+    } else {
+      interest.unannounced.insert(event.slot);
+      interest.has_unannounced = true;
+      ++counters_.entries_postponed;
     }
-    if (!interest.known.contains(event.slot)) say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
-    if (object.negotiation != Object::no_negotiation && !interest.known.contains(event.slot)) offer_to(slot, event.slot, ownership_.all(event.slot));
-    interest.known.insert(event.slot);
-    say(scratch_, InScopeMessage{object.handle.value});
   }
+  for (const ObjectSlot object : interest.pressing)
+    if (interest.unannounced.contains(object)) announce(slot, object);
+  interest.pressing.clear();
   counters_.scope_bytes_sent += scratch_.size() - before;
 }
 
-/// Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
-void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
-  const FederateInterest& interest = interest_.of(slot);
+void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
+  FederateInterest& interest = interest_.of(slot);
+  const Object& object = objects_[at];
+  if (!interest.known.contains(at)) say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+  if (object.negotiation != Object::no_negotiation && !interest.known.contains(at)) offer_to(slot, at, ownership_.all(at));
+  interest.known.insert(at);
+  interest.unannounced.erase(at);
+  say(scratch_, InScopeMessage{object.handle.value});
+}
+
+/// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
+void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::size_t end) {
+  FederateInterest& interest = interest_.of(slot);
   if (!interest.has_fresh) return;
+  bool is_whole = !interest.has_unannounced;
   const std::size_t before = scratch_.size();
   std::optional<UpdatesBlock> block;
-  interest.fresh.for_each([&](ObjectSlot fresh) {
+  interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
+    if (interest.unannounced.contains(fresh)) return true;
+    if (scratch_.size() >= end) {
+      is_whole = false;
+      return false;
+    }
+    told_whole_.push_back(fresh);
     const Object& object = objects_[fresh];
-    if (!object.is_alive) return;
+    if (!object.is_alive) return true;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
-    if (set.is_empty()) return;
+    if (set.is_empty()) return true;
     const Stamp stamp = newest_of(fresh);
     if (!block || frame_stamp_ != stamp) {
       block.reset();
@@ -174,8 +213,10 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot) {
     }
     block->append(object.object_class, set, object.handle, [&] { objects_.append(fresh, set, scratch_); });
     ++counters_.updates_sent;
+    return true;
   });
   block.reset();
+  is_all_told_ = is_whole;
   counters_.entry_bytes_sent += scratch_.size() - before;
 }
 

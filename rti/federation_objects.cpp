@@ -87,6 +87,7 @@ Outcome FederationExecution::Parts::delete_locally(std::uint32_t slot, Reader& r
   interest.known.erase(object);
   interest.in_scope.erase(object);
   interest.fresh.erase(object);
+  interest.unannounced.erase(object);
   say(federates_[slot].control, RemoveObjectMessage{message.object});
   return std::nullopt;
 }

@@ -218,8 +218,10 @@ class FederationExecution::Parts {
   void flush(Outlet& outlet);
   void look_ahead(std::uint32_t slot);
   void flush_federate(std::uint32_t slot, Outlet& outlet);
-  void write_scope_events(std::uint32_t slot);
-  void write_fresh_states(std::uint32_t slot);
+  std::size_t entry_room(std::uint32_t slot, const Outlet& outlet) const;
+  void write_scope_events(std::uint32_t slot, std::size_t end);
+  void announce(std::uint32_t slot, ObjectSlot object);
+  void write_fresh_states(std::uint32_t slot, std::size_t end);
   bool holds_back(std::uint32_t slot, const Outlet& outlet);
   void hold_back(std::uint32_t slot);
   void gather_runs(std::uint32_t slot);
@@ -273,6 +275,8 @@ class FederationExecution::Parts {
   std::unique_ptr<DataDistribution> distribution_;
   DataDistribution& interest_;  ///< the same
   std::unique_ptr<Buffering> buffering_;
+  std::vector<ObjectSlot> told_whole_;  ///< by the flush of the federate at hand
+  bool is_all_told_ = false;            ///< nothing stays fresh beyond it
   std::span<const UpdateRun> runs_;  ///< of the flush at hand
   Baselines baselines_;
   bool is_keyframe_begun_ = false;  ///< in the frame that grows in `scratch_`

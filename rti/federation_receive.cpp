@@ -162,6 +162,7 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
   ownership_.forget(object);
   if (object < inherited_.size()) inherited_[object] = {};
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
+    if (federates_[i].is_joined) interest_.of(i).unannounced.erase(object);
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
     RemoveObjectMessage removal{objects_[object].handle.value};

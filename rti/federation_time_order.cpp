@@ -42,7 +42,7 @@ void FederationExecution::Parts::Time::find_receivers(Message& message) {
     if (!parts_.federates_[slot].is_joined) continue;
     const FederateInterest& interest = parts_.interest_.of(slot);
     const AttributeSet told = interest.told(object, parts_.objects_[object].object_class) & message.attributes;
-    const bool is_concerned = message.kind == MessageKind::updates ? !told.is_empty() : interest.known.contains(object) || interest.in_scope.contains(object);
+    const bool is_concerned = message.kind == MessageKind::updates ? !told.is_empty() : interest.known.contains(object) || interest.in_scope.contains(object) || interest.unannounced.contains(object);
     if (is_concerned) add(slot, told);
   }
   if (message.kind == MessageKind::delete_object) parts_.interest_.object_deleted(object);  // nobody else shall discover it any more
@@ -98,7 +98,9 @@ bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& m
     const ObjectSlot object = parts_.objects_.find({message.object});
     if (object == no_object) return false;
     FederateInterest& interest = parts_.interest_.of(slot);
-    if (!interest.known.contains(object) && !interest.in_scope.contains(object)) return false;
+    const bool is_known = interest.known.contains(object);
+    if (!is_known && !interest.in_scope.contains(object) && !interest.unannounced.contains(object)) return false;
+    if (!is_known || interest.unannounced.contains(object)) interest.pressing.push_back(object);
     if (message.kind == MessageKind::delete_object) interest.known.erase(object);
   }
   write_content(message, told);

@@ -45,6 +45,10 @@ struct FederateInterest {
   Bitmap fresh;                         ///< came into scope since the last flush: the whole state is due
   bool has_fresh = false;
   std::vector<ScopeEvent> events;       ///< since the last flush
+  Bitmap unannounced;                   ///< in scope, and it will be told so by a later flush; their states stay fresh until then
+  bool has_unannounced = false;
+  std::uint32_t announced_to = 0, told_to = 0;  ///< where the last flush without room for all of `unannounced` and `fresh` stopped
+  std::vector<ObjectSlot> pressing;     ///< something in this flush speaks of them, so if they are not announced they are announced now
   bool is_uniform = true;               ///< all of a class's objects in scope have the same attributes: `by_class`; else `by_object`
   std::vector<AttributeSet> by_class, by_object;
 

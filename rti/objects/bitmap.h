@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rink::rti {
@@ -38,6 +39,18 @@ class Bitmap {
   void for_each(Visit visit) const {
     for (std::size_t i = 0; i < words_.size(); ++i)
       for (std::uint64_t bits = words_[i]; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(i * 64 + static_cast<std::size_t>(std::countr_zero(bits))));
+  }
+
+  /// Calls `visit(number)` for each member from `first` on, then for those below it, until it returns false. Returns the number for which it did, 0 if it never did: who
+  /// goes on from there next time starves nobody. `visit` may erase members.
+  template <class Visit>
+  std::uint32_t visit_from(std::uint32_t first, Visit visit) const {
+    std::optional<std::uint32_t> stop;
+    for (const bool is_above : {true, false})
+      for_each([&](std::uint32_t number) {
+        if (!stop && (number >= first) == is_above && !visit(number)) stop = number;
+      });
+    return stop.value_or(0);
   }
 
  private:

@@ -104,9 +104,12 @@ void UdpTransport::Core::on_open(ConnectionId connection) {
 void UdpTransport::Core::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
   has_told_ = true;
   push();  // what waits names the address that goes now
-  if (const Way* way = find(connection)) by_key_.erase(way->up_key);
+  const Way* way = find(connection);
+  const bool was_unanswered = way != nullptr && way->role == Way::Role::client && way->head_size == 0 && reason == CloseReason::closed_by_peer;
+  if (way != nullptr) by_key_.erase(way->up_key);
   if (connection < ways_.size()) ways_[connection].reset();
-  listener_->on_close(connection, reason, detail);
+  // A server without UDP takes the request for nonsense, and that is all that can be seen of it from here.
+  listener_->on_close(connection, reason, was_unanswered ? detail + " without an answer to the request for datagrams: does the server use another transport than udp?" : detail);
 }
 
 void UdpTransport::Core::on_bytes(ConnectionId connection, Bytes bytes) {

@@ -21,19 +21,21 @@ struct Scheme {
   const char* filter;
   bool is_exact;    ///< exactly the overlapping pairs; otherwise at least those whose vessel's middle is seen
   Carrier carrier;
+  std::size_t entry_room = FederationSettings().entry_bytes_per_flush_max;
 };
 
 class Scope : public ::testing::TestWithParam<Scheme> {};
 
 /// Vessels and watchers wander over 100 m x 60 m; vessels come and go, and some have no region.
 struct Sea {
-  static FederationSettings settings(const char* filter) {
+  static FederationSettings settings(const Scheme& scheme) {
     FederationSettings settings;
-    settings.filter = filter;
+    settings.filter = scheme.filter;
+    settings.entry_bytes_per_flush_max = scheme.entry_room;
     settings.filter_settings.world = {0.0, 0.0, 100.0, 60.0};
     return settings;
   }
-  Sea(const Scheme& scheme, unsigned seed) : rig(scheme.carrier, settings(scheme.filter)), random(seed), pilot(rig.join("pilot")) {
+  Sea(const Scheme& scheme, unsigned seed) : rig(scheme.carrier, settings(scheme)), random(seed), pilot(rig.join("pilot")) {
     pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
     for (int i = 0; i < 6; ++i) {
       Station& watcher = rig.join("watcher " + std::to_string(i));
@@ -74,6 +76,10 @@ struct Sea {
     pilot.ambassador.commit_region_modifications(moved.region);
   }
   void step() {
+    change();
+    rig.settle(rig.port() == 0 ? 1 : 3);
+  }
+  void change() {
     for (Vessel& each : vessels)
       if (each.region && uniform(0.0, 1.0) < 0.5) move(each);
     for (Watcher& each : watchers) {
@@ -95,7 +101,6 @@ struct Sea {
       each.speed = static_cast<float>(uniform(0.0, 30.0));
       pilot.ambassador.update_attribute_values(each.object, AttributeSet{position, speed}, values_of(0.0f, 0.0f, each.speed), {});
     }
-    rig.settle(rig.port() == 0 ? 1 : 3);
   }
 
   Rig rig;
@@ -111,6 +116,7 @@ TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
   Sea sea(GetParam(), seed);
   for (int i = 0; i < 40; ++i) sea.add_vessel();
   for (int step = 0; step < 60; ++step) {
+    for (int hasty = 0; GetParam().entry_room < 1000 && hasty < 3; ++hasty) sea.change(), sea.rig.round();  // while much is not told yet
     sea.step();
     for (const Sea::Watcher& watcher : sea.watchers) {
       const Recorder& heard = watcher.station->heard;
@@ -137,8 +143,12 @@ TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
 
 INSTANTIATE_TEST_SUITE_P(Under, Scope,
                          ::testing::Values(Scheme{"none", false, Carrier::in_process}, Scheme{"grid", false, Carrier::in_process},
-                                           Scheme{"region", true, Carrier::in_process}, Scheme{"region", true, Carrier::tcp}),
-                         [](const auto& scheme) { return std::string(scheme.param.filter) + "_" + name_of(scheme.param.carrier); });
+                                           Scheme{"region", true, Carrier::in_process}, Scheme{"region", true, Carrier::tcp},
+                                           Scheme{"region", true, Carrier::in_process, 100}, Scheme{"grid", false, Carrier::in_process, 1}),
+                         [](const auto& scheme) {
+                           const std::string room = scheme.param.entry_room < 1000 ? "_" + std::to_string(scheme.param.entry_room) + "_bytes_of_entries_per_flush" : "";
+                           return std::string(scheme.param.filter) + "_" + name_of(scheme.param.carrier) + room;
+                         });
 
 TEST(ScopeWithoutMotion, AnObjectThatEntersBringsItsStateOnceAndOneThatLeavesSaysNoMore) {
   Sea sea({"region", true, Carrier::in_process}, 1);
@@ -172,6 +182,46 @@ TEST(ScopeWithoutMotion, AnObjectThatEntersBringsItsStateOnceAndOneThatLeavesSay
   EXPECT_EQ(heard.objects.begin()->second.updates, 2);
   EXPECT_EQ(heard.objects.begin()->second.values.at(speed.value), values_of(6.0f));
   EXPECT_EQ(heard.discoveries.at(object.value), 1);
+}
+
+/// 20,000 ferries, each some 60 bytes of name and 60 of state: twenty times what may wait for one who does not read.
+TEST(ScopeWithoutMotion, WhoComesIntoALargeWorldIsToldItInAsManyFlushesAsItsQueueNeeds) {
+  constexpr std::size_t queue_max = 64u << 10, room = 16u << 10;
+  constexpr int ferries = 20'000;
+  FederationSettings settings;
+  settings.entry_bytes_per_flush_max = room;
+  Rig rig(Carrier::tcp, settings, {.queue_max = queue_max});
+  Station &pilot = rig.join("pilot"), &coast = rig.join("coast");
+  pilot.ambassador.publish_object_class_attributes(ferry, {position, destination});
+  std::vector<ObjectHandle> registered;
+  for (int i = 0; i < ferries; ++i) {
+    registered.push_back(pilot.ambassador.register_object_instance(ferry, "a ferry with a name of its own, which is number " + std::to_string(i)));
+    std::vector<std::byte> values = values_of(static_cast<float>(i), 0.0f);
+    const std::vector<std::byte> text = varying("somewhere that takes some words to say: " + std::to_string(i));
+    values.insert(values.end(), text.begin(), text.end());
+    pilot.ambassador.update_attribute_values(registered.back(), {position, destination}, values, {});
+    if (i % 500 == 0) rig.round();
+  }
+  rig.settle();
+  coast.ambassador.subscribe_object_class_attributes(ferry, {position, destination});
+  std::uint64_t before = rig.execution().counters().bytes_sent;
+  int flushes = 0;
+  for (; flushes < 2'000 && coast.heard.objects.size() < ferries; ++flushes) {
+    rig.round();
+    const std::uint64_t now = rig.execution().counters().bytes_sent;
+    ASSERT_LE(now - before, room + 1000);
+    before = now;
+  }
+  rig.settle();
+  ASSERT_EQ(coast.heard.lost, "");
+  EXPECT_GT(flushes, 50);
+  EXPECT_GT(rig.execution().counters().entries_postponed, 19'000u);
+  ASSERT_EQ(coast.heard.objects.size(), static_cast<std::size_t>(ferries));
+  for (int i = 0; i < ferries; ++i) {
+    const Recorder::Known& known = coast.heard.objects.at(registered[static_cast<std::size_t>(i)].value);
+    ASSERT_EQ(known.updates, 1);
+    ASSERT_EQ(known.values.at(destination.value), varying("somewhere that takes some words to say: " + std::to_string(i)));
+  }
 }
 
 TEST(ScopeWithoutMotion, RegionsThatNameDifferentAttributesAddUp) {

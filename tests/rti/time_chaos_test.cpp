@@ -12,7 +12,7 @@ using What = TimedFederate::Heard::What;
 
 class Chaos {
  public:
-  explicit Chaos(std::uint64_t seed) : random_(seed), federation_(relaxed()) {
+  explicit Chaos(std::uint64_t seed) : random_(seed), federation_(relaxed(), with_entry_room(seed % 2 == 0 ? 1 : 512 << 10)) {
     const std::uint64_t count = 2 + below(3);
     for (std::uint64_t i = 0; i < count; ++i) join();
   }

@@ -80,7 +80,7 @@ std::vector<std::vector<Model::Message>> simulate_in_sequence(const Model& model
 /// The same model with a federate for each member, whose bytes travel as slowly as they like.
 class Distributed {
  public:
-  Distributed(const Model& model, Random& random) : model_(model), random_(random), federation_(relaxed()) {
+  Distributed(const Model& model, Random& random) : model_(model), random_(random), federation_(relaxed(), with_entry_room(random() % 2 == 0 ? 1 : 512 << 10)) {
     for (const Model::Member& each : model.members) federation_.join_timed(each.lookahead);
     for (std::size_t i = 0; i < model.members.size(); ++i) send(i, model.first(i));
   }

@@ -79,6 +79,13 @@ struct TimedFederate : FederateAmbassador {
   }
 };
 
+/// What is discovered in one flush ends at so many bytes and one object.
+inline FederationSettings with_entry_room(std::size_t bytes) {
+  FederationSettings settings;
+  settings.entry_bytes_per_flush_max = bytes;
+  return settings;
+}
+
 /// No transport: bytes lie between federate and RTI until the test carries them.
 class TimedFederation : public Outlet {
  public:
