@@ -91,7 +91,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--federation", options.federation, "name of the federation execution to join")->capture_default_str();
   app.add_option("--federation-file", options.federation_file, "the server's federation file instead of --connect and --federation; if it lists nodes, bots bear their names from the --first on");
   app.add_option("--count", options.count, "bots")->check(game::number_from(1, game::bats_max))->capture_default_str();
-  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones")->check(game::number_from(0, game::bats_max))->capture_default_str();
+  app.add_option("--first", options.first, "the first bot's bat; the others take the following ones, and who asks for one that is taken or not there any that is free")->check(game::number_from(0, game::bats_max))->capture_default_str();
   app.add_option("--plan", options.plan, "key log to play; without it the plan is made from the seed")->check(CLI::ExistingFile);
   app.add_option("--players", options.players, "who plays: random, by the plan; or by what they see of the game, " + player_names())
       ->check(CLI::IsMember([] { auto kinds = game::player_kinds(); kinds.push_back("random"); return kinds; }()))

@@ -45,6 +45,13 @@ Ended serve(std::vector<std::string> arguments) {
   return run("rink-serve", arguments);
 }
 
+/// Where the server listens, once it says so.
+std::optional<std::string> place_of(Process& server) {
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  return place;
+}
+
 TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   for (const char* flag : {"--rate", "--duration", "--warm-up", "--patience", "--cell-size", "--bats", "--clients"}) {
     for (const char* value : {"nan", "inf", "-1", "1e300", "4000000000", "x"}) {
@@ -120,8 +127,7 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     flags.push_back(loses_one ? "200" : "2");
     if (is_managed) flags.push_back("--time-management");
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
-    std::optional<std::string> place;
-    for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+    const std::optional<std::string> place = place_of(server);
     ASSERT_TRUE(place) << server.last_words();
     const std::vector<std::string> bots{"--connect", *place, "--count", "3", "--seed", "5", "--duration", flags[15]};
     Process first(test::binary_folder() + "/bin/rink-bots", bots, {});
@@ -180,8 +186,7 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
 
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0", "--scheme", "grid"}, {});
-  std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place}, {});
   for (int i = 0; i < 500 && !status.ending(); ++i) status.attend(10ms);
@@ -222,8 +227,7 @@ TEST(ServeCommand, StatusTellsARefusalFromSomebodyWhoSpeaksAnotherProtocol) {
 
 TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--clients", "1", "--patience", "7", "--port", "0"}, {});
-  std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   struct : rti::FederateAmbassador {
   } deaf;  // joins and lives, but takes no seat and reaches no barrier
@@ -248,8 +252,7 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
 
 TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
-  std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
+  const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
   for (int i = 0; i < 30 && !status.ending(); ++i) status.attend(20ms);
@@ -268,11 +271,19 @@ TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   }
 }
 
+TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTransport) {
+  Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--clients", "2", "--port", "0"}, {});
+  const std::optional<std::string> place = place_of(server);
+  ASSERT_TRUE(place) << server.last_words();
+  const Ended bots = run("rink-bots", {"--connect", *place, "--transport", "udp", "--count", "2", "--duration", "1"});
+  EXPECT_EQ(bots.status, 16);
+  EXPECT_THAT(bots.words, HasSubstr("does the server use another transport than udp?"));
+}
+
 TEST(BotsCommand, AServerThatIsKilledEndsThemAtOnceWithAStatusOfItsOwn) {
   auto server = std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", std::vector<std::string>{"--scene", "match", "--clients", "2", "--port", "0"},
                                           std::vector<int>{});
-  std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server->attend(10ms), place = server->line_after("listening on ");
+  const std::optional<std::string> place = place_of(*server);
   ASSERT_TRUE(place) << server->last_words();
   Process bots(test::binary_folder() + "/bin/rink-bots", {"--connect", *place, "--count", "2", "--duration", "60"}, {});
   for (int i = 0; i < 50; ++i) bots.attend(20ms);
