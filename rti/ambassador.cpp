@@ -9,7 +9,7 @@
 
 namespace rink::rti {
 
-Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
+AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
     : FomLookup(fom),
       queue_(model == CallbackModel::evoked ? std::make_unique<CallbackQueue>(callbacks) : nullptr),
       callbacks_(queue_ ? *queue_ : callbacks),
@@ -18,6 +18,9 @@ Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Pati
       declared_(fom),
       outgoing_(frame_max_to_rti),
       arrivals_(fom) {}
+
+Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
+    : AmbassadorParts(fom, callbacks, patience, model) {}
 
 ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class, std::string_view name) {
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
@@ -44,7 +47,7 @@ void Ambassador::delete_object_instance(ObjectHandle object) {
   say(DeleteObjectMessage{object.value});
 }
 
-void Ambassador::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
+void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet attributes, const Stamp& stamp) {
   declared_.note_sent(object_class, attributes, stamp);
   if (!outgoing_.is_open() || stamped_frame_ != outgoing_.frame_count() || said_stamp_ != stamp) say(StampMessage{stamp});
   said_stamp_ = stamp;
@@ -69,7 +72,7 @@ void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attri
   say_update(object, object_class, attributes, values, stamp);
 }
 
-void Ambassador::say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp) {
+void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   assert(values.size() <= values_max);
   // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
   constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
@@ -125,7 +128,7 @@ void Ambassador::advance_clock(double now) {
   }
 }
 
-void Ambassador::forget(ObjectHandle object) {
+void AmbassadorParts::forget(ObjectHandle object) {
   holdings_.erase(object);
   regions_.forget(object);
   declared_.spared.forget(object);
@@ -134,7 +137,7 @@ void Ambassador::forget(ObjectHandle object) {
   else known_.erase(object);
 }
 
-KnownObject* Ambassador::find(ObjectHandle object) {
+KnownObject* AmbassadorParts::find(ObjectHandle object) {
   if (!is_ours(object)) {
     KnownObject* known = known_.find(object);
     return known != nullptr && known->object_class != KnownObject::unknown ? known : nullptr;  // else it is being deleted by us

@@ -5,14 +5,14 @@
 
 namespace rink::rti {
 
-bool Ambassador::take_keyframe(Reader& reader) {
+bool AmbassadorParts::take_keyframe(Reader& reader) {
   BeginKeyframeMessage message;
   if (!exchange(reader, message)) return false;
   keyframes_.begin(message.number);
   return true;
 }
 
-void Ambassador::end_keyframe() {
+void AmbassadorParts::end_keyframe() {
   if (!keyframes_.is_open()) return;
   const std::optional<std::uint16_t> number = keyframes_.seal();
   if (phase_ != Phase::joined) return;
@@ -20,7 +20,7 @@ void Ambassador::end_keyframe() {
   ++counters_.keyframes_acknowledged;
 }
 
-bool Ambassador::take_deltas(Reader& reader) {
+bool AmbassadorParts::take_deltas(Reader& reader) {
   DeltasMessage message;
   if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
   const std::optional<AttributeHandle> attribute = fom_.periodic_attribute({message.object_class});
@@ -58,7 +58,7 @@ bool Ambassador::take_deltas(Reader& reader) {
 }
 
 /// Decodes one record into `decoded_` and keeps it if a keyframe is being told.
-Ambassador::DeltaOutcome Ambassador::take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp) {
+AmbassadorParts::DeltaOutcome AmbassadorParts::take_periodic(BitReader& bits, const QuantisedCodec& codec, const DeltaHeader& header, std::uint32_t object, const Stamp& stamp) {
   bool is_absolute = false;
   if (!bits.flag(is_absolute) || (!is_absolute && !header.has_baseline)) return DeltaOutcome::malformed;
   decoded_.clear();

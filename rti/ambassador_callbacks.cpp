@@ -13,7 +13,7 @@ bool Ambassador::evoke_multiple_callbacks(std::size_t count_max) {
 }
 
 /// Keeps bytes that nobody may be told of yet.
-bool Ambassador::hold(Bytes bytes) {
+bool AmbassadorParts::hold(Bytes bytes) {
   held_.insert(held_.end(), bytes.begin(), bytes.end());
   if (held_.size() <= waiting_callbacks_max) return true;
   lose("callbacks were disabled for too long");

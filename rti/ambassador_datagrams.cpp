@@ -29,7 +29,7 @@ void Ambassador::receive_datagram(Bytes datagram) {
   else ++counters_.datagrams_ignored;
 }
 
-void Ambassador::apply_datagram(Bytes datagram) {
+void AmbassadorParts::apply_datagram(Bytes datagram) {
   DatagramHead head;
   Reader reader(datagram);
   exchange(reader, head);
@@ -44,7 +44,7 @@ void Ambassador::apply_datagram(Bytes datagram) {
   if (receipts_.is_urgent()) acknowledge_datagrams();
 }
 
-void Ambassador::apply_held_datagrams() {
+void AmbassadorParts::apply_held_datagrams() {
   for (std::size_t i = 0; i < held_datagrams_.size() && phase_ == Phase::joined;) {
     DatagramHead head;
     Reader reader(held_datagrams_[i]);
@@ -59,7 +59,7 @@ void Ambassador::apply_held_datagrams() {
   }
 }
 
-bool Ambassador::take_datagram(const DatagramHead& head, Reader& reader) {
+bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
   const std::optional<Stamp> stamp_of_frame = std::exchange(heard_stamp_, std::nullopt);
   bool is_understood = true;
   while (is_understood && !reader.is_at_end() && phase_ == Phase::joined) {
@@ -73,7 +73,7 @@ bool Ambassador::take_datagram(const DatagramHead& head, Reader& reader) {
   return is_understood;
 }
 
-bool Ambassador::take_datagram_updates(const DatagramHead& head, Reader& reader) {
+bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
   const AttributeSet attributes{message.attributes};
@@ -111,7 +111,7 @@ void Ambassador::clear_outgoing_datagram() {
   outgoing_datagram_.clear();
 }
 
-void Ambassador::acknowledge_datagrams() {
+void AmbassadorParts::acknowledge_datagrams() {
   if (outgoing_datagram_.empty()) {
     DatagramHead head;
     Writer writer(outgoing_datagram_);

@@ -34,7 +34,7 @@ void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, Region
 void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) { declare_publication(interaction_class, true); }
 void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) { declare_publication(interaction_class, false); }
 
-void Ambassador::declare_publication(InteractionClassHandle interaction_class, bool is_published) {
+void AmbassadorParts::declare_publication(InteractionClassHandle interaction_class, bool is_published) {
   require_class(interaction_class);
   DeclaredState::Class& declared = declared_.interactions[interaction_class.value];
   if (!is_published) declared = {};
@@ -47,28 +47,28 @@ void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_
 }
 void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) { declare_subscription(interaction_class, Listening::none); }
 
-void Ambassador::declare_subscription(InteractionClassHandle interaction_class, Listening listening) {
+void AmbassadorParts::declare_subscription(InteractionClassHandle interaction_class, Listening listening) {
   require_class(interaction_class);
   say(SubscribeInteractionClassMessage{static_cast<std::uint16_t>(interaction_class.value), static_cast<std::uint8_t>(listening)});
 }
 
-void Ambassador::require_class(ObjectClassHandle object_class, AttributeSet attributes) const {
+void AmbassadorParts::require_class(ObjectClassHandle object_class, AttributeSet attributes) const {
   if (object_class.value >= declared_.objects.size()) throw RtiException(HlaError::object_class_not_defined, "class " + std::to_string(object_class.value));
   if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "of class " + fom_.at(object_class).name);
 }
 
-void Ambassador::require_class(InteractionClassHandle interaction_class) const {
+void AmbassadorParts::require_class(InteractionClassHandle interaction_class) const {
   if (interaction_class.value >= fom_.interaction_classes().size()) throw RtiException(HlaError::interaction_class_not_defined, "class " + std::to_string(interaction_class.value));
 }
 
-void Ambassador::require_published(InteractionClassHandle interaction_class) const {
+void AmbassadorParts::require_published(InteractionClassHandle interaction_class) const {
   if (phase_ != Phase::joined) refuse_stranger();
   require_class(interaction_class);
   if (declared_.interactions[interaction_class.value].published.is_empty())
     throw RtiException(HlaError::interaction_class_not_published, "class " + fom_.at(interaction_class).name);
 }
 
-void Ambassador::switch_advisory(Advisory advisory, bool is_on) {
+void AmbassadorParts::switch_advisory(Advisory advisory, bool is_on) {
   if (phase_ != Phase::joined) refuse_stranger();
   if (declared_.is_on(advisory) == is_on) {
     constexpr HlaError is_on_errors[] = {HlaError::object_class_relevance_advisory_switch_is_on, HlaError::attribute_relevance_advisory_switch_is_on,
@@ -88,7 +88,7 @@ void Ambassador::switch_advisory(Advisory advisory, bool is_on) {
 }
 
 /// Tells what has changed since the federate was last told (5.10, 5.11); while its switch is off nothing counts as told.
-void Ambassador::advise(ObjectClassHandle object_class) {
+void AmbassadorParts::advise(ObjectClassHandle object_class) {
   DeclaredState::Class& declared = declared_.objects[object_class.value];
   const bool is_on = declared_.is_on(Advisory::object_class_relevance);
   const bool is_relevant = is_on && !(declared.published & declared.others.active).is_empty();
@@ -98,7 +98,7 @@ void Ambassador::advise(ObjectClassHandle object_class) {
 }
 
 /// 5.12, 5.13.
-void Ambassador::advise(InteractionClassHandle interaction_class) {
+void AmbassadorParts::advise(InteractionClassHandle interaction_class) {
   DeclaredState::Class& declared = declared_.interactions[interaction_class.value];
   const bool is_on = declared_.is_on(Advisory::interaction_relevance);
   const bool is_relevant = is_on && !(declared.published & declared.others.active).is_empty();
@@ -108,7 +108,7 @@ void Ambassador::advise(InteractionClassHandle interaction_class) {
 }
 
 /// What crossed a withdrawal of ours on its way is of no concern any more.
-bool Ambassador::take_class_relevance(Reader& reader) {
+bool AmbassadorParts::take_class_relevance(Reader& reader) {
   ClassRelevanceMessage message;
   if (!exchange(reader, message)) return false;
   auto& classes = message.is_interaction != 0 ? declared_.interactions : declared_.objects;
@@ -127,7 +127,7 @@ bool Ambassador::take_class_relevance(Reader& reader) {
 }
 
 /// 6.21, 6.22.
-bool Ambassador::take_object_relevance(Reader& reader) {
+bool AmbassadorParts::take_object_relevance(Reader& reader) {
   ObjectRelevanceMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
@@ -146,16 +146,16 @@ bool Ambassador::take_object_relevance(Reader& reader) {
 }
 
 /// Only what ends with its federate may be kept back, and only while it would hear at once that somebody listens.
-bool Ambassador::may_spare() const { return declared_.is_deleting && (are_callbacks_enabled_ || queue_); }
+bool AmbassadorParts::may_spare() const { return declared_.is_deleting && (are_callbacks_enabled_ || queue_); }
 
-bool Ambassador::spares_interaction(InteractionClassHandle interaction_class) {
+bool AmbassadorParts::spares_interaction(InteractionClassHandle interaction_class) {
   if (!declared_.interactions[interaction_class.value].others.heard.is_empty() || !may_spare()) return false;
   ++counters_.interactions_spared;
   return true;
 }
 
 /// False if the update is to be sent: then what was kept back of it is out of date.
-bool Ambassador::spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values, const Stamp& stamp) {
+bool AmbassadorParts::spare(ObjectHandle object, const KnownObject& known, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   const ObjectClassHandle object_class{known.object_class};
   const DeclaredState::Class& declared = declared_.objects[object_class.value];
   if (!(attributes & declared.others.heard).is_empty() || !known.is_own || !may_spare()) {
@@ -172,12 +172,12 @@ bool Ambassador::spare(ObjectHandle object, const KnownObject& known, AttributeS
 }
 
 /// Sends what was kept back of objects of a class, or of all, of which `heard` is a part; as the newest state, with the newest stamp.
-void Ambassador::release_spared(ObjectClassHandle object_class, AttributeSet heard) {
+void AmbassadorParts::release_spared(ObjectClassHandle object_class, AttributeSet heard) {
   if (declared_.spared.is_empty()) return;
   for (const ObjectHandle object : declared_.spared.list(object_class, heard)) release_spared(object);
 }
 
-void Ambassador::release_spared(ObjectHandle object) {
+void AmbassadorParts::release_spared(ObjectHandle object) {
   const SparedValues::Spared* spared = declared_.spared.find(object);
   if (spared == nullptr || phase_ != Phase::joined) return;
   const SparedValues::Spared kept = *spared;

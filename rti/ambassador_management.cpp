@@ -15,13 +15,13 @@ void require_text(std::string_view text, std::size_t max, const char* what) {
 
 }  // namespace
 
-void Ambassador::refuse_stranger() const {
+void AmbassadorParts::refuse_stranger() const {
   throw RtiException(HlaError::federate_not_execution_member, phase_ == Phase::idle ? "join first" : "this federate has left its federation execution");
 }
 
 /// A message in a frame of its own: a host reads the first message of a frame to know whom it concerns, and short frames only.
 template <class Message>
-void Ambassador::ask(Message message) {
+void AmbassadorParts::ask(Message message) {
   if (phase_ != Phase::idle) throw RtiException(HlaError::federate_already_execution_member, "a host is asked before the join, or by another ambassador");
   has_asked_ = true;
   outgoing_.close_frame();
@@ -86,7 +86,7 @@ void Ambassador::synchronization_point_achieved(std::string_view label, bool is_
   say(SynchronizationPointAchievedMessage{label, static_cast<std::uint8_t>(is_success)});
 }
 
-bool Ambassador::take_synchronization(Reader& reader, MessageKind kind) {
+bool AmbassadorParts::take_synchronization(Reader& reader, MessageKind kind) {
   if (kind == MessageKind::synchronization_point_registered) {
     SynchronizationPointRegisteredMessage message;
     if (!exchange(reader, message)) return false;
@@ -107,7 +107,7 @@ bool Ambassador::take_synchronization(Reader& reader, MessageKind kind) {
   return true;
 }
 
-bool Ambassador::take_host_answer(Reader& reader, MessageKind kind) {
+bool AmbassadorParts::take_host_answer(Reader& reader, MessageKind kind) {
   if (!has_asked_) return false;
   if (kind == MessageKind::federation_execution) return take_execution(reader);
   FederationExecutionCreatedMessage message;  // the two outcomes differ in their kind only
@@ -118,7 +118,7 @@ bool Ambassador::take_host_answer(Reader& reader, MessageKind kind) {
   return true;
 }
 
-bool Ambassador::take_execution(Reader& reader) {
+bool AmbassadorParts::take_execution(Reader& reader) {
   FederationExecutionMessage message;
   if (!exchange(reader, message)) return false;
   if (message.is_end == 0) {
@@ -131,7 +131,7 @@ bool Ambassador::take_execution(Reader& reader) {
   return true;
 }
 
-bool Ambassador::take_report(Reader& reader, MessageKind kind) {
+bool AmbassadorParts::take_report(Reader& reader, MessageKind kind) {
   if (kind == MessageKind::federation_report) {
     FederationReportMessage message;
     if (!exchange(reader, message)) return false;

@@ -14,12 +14,12 @@ void require_tag(Bytes tag) {
 
 }  // namespace
 
-void Ambassador::require_name(std::string_view name) {
+void AmbassadorParts::require_name(std::string_view name) {
   if (name.empty() || name.size() > text_max || name.starts_with(NameBook::own_prefix))
     throw RtiException(HlaError::illegal_name, "'" + std::string(name) + "': an object's name has 1 to 255 bytes and does not begin with HLA");
 }
 
-void Ambassador::ask_names(std::uint8_t word, std::span<const std::string_view> names) {
+void AmbassadorParts::ask_names(std::uint8_t word, std::span<const std::string_view> names) {
   if (phase_ != Phase::joined) refuse_stranger();
   if (names.empty()) throw RtiException(HlaError::name_set_was_empty, "a set of names has one at least");
   std::vector<std::byte> texts;
@@ -49,7 +49,7 @@ void Ambassador::release_multiple_object_instance_names(std::span<const std::str
   for (const std::string_view name : names) names_.end_reservation(name);
 }
 
-bool Ambassador::take_names(Reader& reader) {
+bool AmbassadorParts::take_names(Reader& reader) {
   InstanceNamesAnswerMessage message;
   std::vector<std::string> names;
   if (!exchange(reader, message) || !for_each_name(message.names, [&](std::string_view name) { names.emplace_back(name); })) return false;
@@ -126,7 +126,7 @@ void Ambassador::query_interaction_transportation_type(FederateHandle federate, 
   say(QueryTransportationMessage{1, interaction_class.value, federate.value});
 }
 
-bool Ambassador::take_transportation(Reader& reader) {
+bool AmbassadorParts::take_transportation(Reader& reader) {
   TransportationMessage message;
   if (!exchange(reader, message)) return false;
   const auto transportation = static_cast<Transportation>(message.transportation);

@@ -15,11 +15,11 @@ void require(bool is_met, HlaError error, ObjectHandle object, std::string_view 
 
 }  // namespace
 
-AttributeSet Ambassador::all_of(const KnownObject& known) const {
+AttributeSet AmbassadorParts::all_of(const KnownObject& known) const {
   return fom_.attributes(ObjectClassHandle{known.object_class}) | AttributeSet{privilege_to_delete_object};
 }
 
-KnownObject& Ambassador::known_or_throw(ObjectHandle object, AttributeSet attributes) {
+KnownObject& AmbassadorParts::known_or_throw(ObjectHandle object, AttributeSet attributes) {
   if (phase_ != Phase::joined) throw RtiException(HlaError::federate_not_execution_member, "join first");
   KnownObject* known = find(object);
   require(known != nullptr, HlaError::object_instance_not_known, object, "it must have been registered or discovered");
@@ -27,13 +27,13 @@ KnownObject& Ambassador::known_or_throw(ObjectHandle object, AttributeSet attrib
   return *known;
 }
 
-AttributeSet Ambassador::owned_of(ObjectHandle object, const KnownObject& known) const {
+AttributeSet AmbassadorParts::owned_of(ObjectHandle object, const KnownObject& known) const {
   if (known.is_own) return all_of(known);
   const Holding* holding = holdings_.find(object);
   return holding ? holding->owned : AttributeSet();
 }
 
-Holding& Ambassador::holding_of(ObjectHandle object, const KnownObject& known) {
+Holding& AmbassadorParts::holding_of(ObjectHandle object, const KnownObject& known) {
   if (Holding* holding = holdings_.find(object)) return *holding;
   Holding& holding = holdings_[object];
   if (known.is_own) holding.owned = all_of(known);
@@ -41,27 +41,27 @@ Holding& Ambassador::holding_of(ObjectHandle object, const KnownObject& known) {
 }
 
 /// All or nothing, and nothing under way, is said by `is_own` alone.
-void Ambassador::settle_holding(ObjectHandle object, KnownObject& known) {
+void AmbassadorParts::settle_holding(ObjectHandle object, KnownObject& known) {
   const Holding* holding = holdings_.find(object);
   known.is_own = holding->owned == all_of(known);
   if (holding->owned.is_empty()) regions_.forget(object);  // its regions are the new owner's to associate
   if ((known.is_own || holding->owned.is_empty()) && holding->offered.is_empty() && holding->pending().is_empty()) holdings_.erase(object);
 }
 
-void Ambassador::check_update(ObjectHandle object, AttributeSet attributes) {
+void AmbassadorParts::check_update(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
   require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object, "an attribute that is updated must be owned");
 }
 
 template <class Visit>
-void Ambassador::for_each_known(Visit visit) {
+void AmbassadorParts::for_each_known(Visit visit) {
   for (std::uint32_t i = 0; i < own_.size(); ++i)
     if (own_[i].object_class != KnownObject::unknown) visit(ObjectHandle{object_block_ * object_block + i}, own_[i]);
   known_.for_each(visit);
 }
 
 /// What of the class is owned is given up with its publication, at the RTI too.
-void Ambassador::withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all) {
+void AmbassadorParts::withdraw_publication(ObjectClassHandle object_class, AttributeSet attributes, bool is_all) {
   if (attributes.is_empty()) return;
   if (is_all) attributes.insert(privilege_to_delete_object);
   std::vector<ObjectHandle> owned;
@@ -78,21 +78,21 @@ void Ambassador::withdraw_publication(ObjectClassHandle object_class, AttributeS
   }
 }
 
-AttributeSet Ambassador::require_owned(ObjectHandle object, AttributeSet attributes) {
+AttributeSet AmbassadorParts::require_owned(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
   require(owned_of(object, known).includes(attributes), HlaError::attribute_not_owned, object, "all of the attributes must be owned");
   const Holding* holding = holdings_.find(object);
   return holding ? holding->offered : AttributeSet();
 }
 
-void Ambassador::ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   release_spared(object);
   require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object, "a tag of an ownership service has at most 1,024 bytes");
   say_of(OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
 }
 
-void Ambassador::give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::give_up(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
   ask_ownership(request, object, attributes, tag);
   KnownObject& known = *find(object);
   holding_of(object, known).lose(attributes);
@@ -144,7 +144,7 @@ void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle 
   settle_holding(object, known);
 }
 
-AttributeSet Ambassador::require_acquirable(ObjectHandle object, AttributeSet attributes) {
+AttributeSet AmbassadorParts::require_acquirable(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = known_or_throw(object, attributes);
   const AttributeSet published = declared_.objects[known.object_class].published;
   require(!published.is_empty(), HlaError::object_class_not_published, object, "its class must be published");
@@ -195,7 +195,7 @@ void Ambassador::set_automatic_resign_directive(ResignAction action) {
 }
 
 /// What outlives its federate must be known to the RTI.
-void Ambassador::say_directive(ResignAction action) {
+void AmbassadorParts::say_directive(ResignAction action) {
   declared_.is_deleting = action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
   if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
@@ -217,7 +217,7 @@ void Ambassador::resign(ResignAction action) {
   resign();
 }
 
-bool Ambassador::take_ownership(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_ownership(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::inform_ownership) {
     InformOwnershipMessage message;
     if (!exchange(reader, message)) return false;
@@ -239,7 +239,7 @@ bool Ambassador::take_ownership(Reader& reader, std::uint8_t kind) {
 }
 
 /// What crossed a word of ours on its way is about what we no longer own or want, and passes in silence.
-void Ambassador::take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::take_notice(ObjectHandle object, KnownObject& known, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
   Holding& holding = holding_of(object, known);
   const AttributeSet pending = attributes & holding.pending();
   AttributeSet told = attributes;
@@ -269,7 +269,7 @@ void Ambassador::take_notice(ObjectHandle object, KnownObject& known, OwnershipN
   if (is_kept && !pending.is_empty()) call_back(object, OwnershipNotice::acquired, pending, {});  // asked for again before it was clear that it had stayed
 }
 
-void Ambassador::call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
+void AmbassadorParts::call_back(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes, Bytes tag) {
   switch (notice) {
     case OwnershipNotice::assumption_requested: return callbacks_.request_attribute_ownership_assumption(object, attributes, tag);
     case OwnershipNotice::confirmation_requested: return callbacks_.request_divestiture_confirmation(object, attributes);

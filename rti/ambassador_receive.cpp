@@ -18,7 +18,7 @@ bool Ambassador::receive(Bytes bytes) {
   return are_callbacks_enabled_ || queue_ ? take_bytes(bytes) : hold(bytes);
 }
 
-bool Ambassador::take_bytes(Bytes bytes) {
+bool AmbassadorParts::take_bytes(Bytes bytes) {
   const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); });
   if (!is_understood) lose("the RTI sent what this version does not understand");
   if (!held_datagrams_.empty()) apply_held_datagrams();
@@ -27,7 +27,7 @@ bool Ambassador::take_bytes(Bytes bytes) {
 
 void Ambassador::disconnected(std::string_view why) { lose(why); }
 
-void Ambassador::lose(std::string_view why) {
+void AmbassadorParts::lose(std::string_view why) {
   if (phase_ == Phase::ended || (phase_ == Phase::idle && !has_asked_)) return;
   if (!are_callbacks_enabled_ && !queue_) {
     held_loss_ = why;  // after what was heard before
@@ -37,7 +37,7 @@ void Ambassador::lose(std::string_view why) {
   callbacks_.connection_lost(why);
 }
 
-bool Ambassador::take_frame(Bytes frame) {
+bool AmbassadorParts::take_frame(Bytes frame) {
   ++counters_.frames_received;
   if (phase_ == Phase::joined) ++frames_heard_;
   if (!postponed_.empty() && !release_postponed()) return false;
@@ -51,19 +51,19 @@ bool Ambassador::take_frame(Bytes frame) {
 }
 
 /// True of an object that was deleted or forgotten here: what the RTI still says of it, it said before it heard so.
-bool Ambassador::is_gone(ObjectHandle object) const {
+bool AmbassadorParts::is_gone(ObjectHandle object) const {
   if (is_ours(object)) return object.value % object_block < objects_registered_;
   return known_.find(object) != nullptr || std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
 }
 
 /// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
-bool Ambassador::settle_gone(ObjectHandle object) {
+bool AmbassadorParts::settle_gone(ObjectHandle object) {
   for (GoneObject& each : gone_)
     if (each.object == object) each.is_settled = true;
   return true;
 }
 
-bool Ambassador::take_message(Reader& reader) {
+bool AmbassadorParts::take_message(Reader& reader) {
   std::uint8_t kind = 0;
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
@@ -105,7 +105,7 @@ bool Ambassador::take_message(Reader& reader) {
   }
 }
 
-bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
   if (phase_ != Phase::joining) return false;
   if (static_cast<MessageKind>(kind) == MessageKind::fom_digest) return take_digest(reader);
   if (static_cast<MessageKind>(kind) == MessageKind::refused) {
@@ -128,7 +128,7 @@ bool Ambassador::take_membership(Reader& reader, std::uint8_t kind) {
 }
 
 /// What follows is the refusal.
-bool Ambassador::take_digest(Reader& reader) {
+bool AmbassadorParts::take_digest(Reader& reader) {
   FomDigestMessage message;
   if (!exchange(reader, message)) return false;
   std::vector<FomDigestEntry> entries(message.count);
@@ -137,7 +137,7 @@ bool Ambassador::take_digest(Reader& reader) {
   return true;
 }
 
-bool Ambassador::take_federate(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_federate(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::federate_joined) {
     FederateJoinedMessage message;
     if (!exchange(reader, message)) return false;
@@ -152,7 +152,7 @@ bool Ambassador::take_federate(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
-bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind) {
   if (static_cast<MessageKind>(kind) == MessageKind::remove_object) {
     RemoveObjectMessage message;
     if (!exchange(reader, message)) return false;
@@ -178,7 +178,7 @@ bool Ambassador::take_object(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
-bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
+bool AmbassadorParts::take_scope(Reader& reader, std::uint8_t kind) {
   InScopeMessage message;
   if (!exchange(reader, message)) return false;
   const KnownObject* known = find({message.object});
@@ -193,14 +193,14 @@ bool Ambassador::take_scope(Reader& reader, std::uint8_t kind) {
   return true;
 }
 
-bool Ambassador::take_stamp(Reader& reader) {
+bool AmbassadorParts::take_stamp(Reader& reader) {
   StampMessage message;
   if (!exchange(reader, message)) return false;
   heard_stamp_ = message.stamp;
   return true;
 }
 
-bool Ambassador::take_updates(Reader& reader) {
+bool AmbassadorParts::take_updates(Reader& reader) {
   UpdatesMessage message;
   if (!exchange(reader, message) || !heard_stamp_ || message.object_class >= fom_.object_classes().size()) return false;
   const AttributeSet attributes{message.attributes};
@@ -226,7 +226,7 @@ bool Ambassador::take_updates(Reader& reader) {
   return is_read || phase_ != Phase::joined;
 }
 
-bool Ambassador::take_interaction(Reader& reader) {
+bool AmbassadorParts::take_interaction(Reader& reader) {
   InteractionMessage message;
   if (!exchange(reader, message) || message.interaction_class >= fom_.interaction_classes().size()) return false;
   ++counters_.interactions_received;

@@ -8,7 +8,7 @@ namespace rink::rti {
 
 /// Gathers the pairs, as many as a message takes at once, in `region_records_`, and calls `tell(count)` for each message.
 template <class Tell>
-void Ambassador::for_each_message(std::span<const AttributeRegions> pairs, Tell tell) {
+void AmbassadorParts::for_each_message(std::span<const AttributeRegions> pairs, Tell tell) {
   region_records_.clear();
   Writer writer(region_records_);
   std::uint16_t count = 0;
@@ -98,7 +98,7 @@ void Ambassador::unassociate_regions_for_updates(ObjectHandle object, std::span<
   associate_regions(object, pairs, false);
 }
 
-void Ambassador::associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added) {
+void AmbassadorParts::associate_regions(ObjectHandle object, std::span<const AttributeRegions> pairs, bool is_added) {
   const ObjectClassHandle object_class = own_class(object);
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
@@ -120,7 +120,7 @@ void Ambassador::unsubscribe_object_class_attributes_with_regions(ObjectClassHan
   subscribe_with_regions(object_class, pairs, RegionAction::remove);
 }
 
-void Ambassador::subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
+void AmbassadorParts::subscribe_with_regions(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
   check(object_class, pairs);
   for (const AttributeRegions& each : pairs)
     for (const RegionHandle region : each.regions) regions_.subscribe(object_class, each.attributes, region, action != RegionAction::remove);
@@ -132,7 +132,7 @@ void Ambassador::request_attribute_value_update_with_regions(ObjectClassHandle o
   say_regional_class(object_class, pairs, RegionAction::request_update);
 }
 
-bool Ambassador::take_provide_update(Reader& reader) {
+bool AmbassadorParts::take_provide_update(Reader& reader) {
   ProvideUpdateMessage message;
   if (!exchange(reader, message)) return false;
   const KnownObject* known = find({message.object});
@@ -143,7 +143,7 @@ bool Ambassador::take_provide_update(Reader& reader) {
   return true;
 }
 
-void Ambassador::say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
+void AmbassadorParts::say_regional_class(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, RegionAction action) {
   for_each_message(pairs, [&](std::uint16_t count) {
     say(RegionalClassMessage{static_cast<std::uint16_t>(object_class.value), static_cast<std::uint8_t>(action), count, region_records_});
   });
@@ -156,7 +156,7 @@ void Ambassador::unsubscribe_interaction_class_with_regions(InteractionClassHand
   subscribe_with_regions(interaction_class, regions, Listening::none);
 }
 
-void Ambassador::subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening) {
+void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions, Listening listening) {
   check(interaction_class, regions);
   for (const RegionHandle region : regions) regions_.subscribe(interaction_class, region, listening != Listening::none);
   write_numbers(regions);
@@ -172,7 +172,7 @@ void Ambassador::send_interaction_with_regions(InteractionClassHandle interactio
   ++counters_.interactions_sent;
 }
 
-void Ambassador::write_numbers(std::span<const RegionHandle> regions) {
+void AmbassadorParts::write_numbers(std::span<const RegionHandle> regions) {
   region_records_.clear();
   Writer writer(region_records_);
   for (const RegionHandle region : regions) {
@@ -181,14 +181,14 @@ void Ambassador::write_numbers(std::span<const RegionHandle> regions) {
   }
 }
 
-ObjectClassHandle Ambassador::own_class(ObjectHandle object) {
+ObjectClassHandle AmbassadorParts::own_class(ObjectHandle object) {
   const KnownObject* known = find(object);
   if (known == nullptr) throw RtiException(HlaError::object_instance_not_known, "object " + std::to_string(object.value));
   if (owned_of(object, *known).is_empty()) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is another federate's");
   return {known->object_class};
 }
 
-void Ambassador::check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const {
+void AmbassadorParts::check(ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) const {
   if (object_class.value >= fom_.object_classes().size()) throw RtiException(HlaError::object_class_not_defined, "object class " + std::to_string(object_class.value));
   const ObjectClass& known = fom_.at(object_class);
   for (const AttributeRegions& each : pairs) {
@@ -203,7 +203,7 @@ void Ambassador::check(ObjectClassHandle object_class, std::span<const Attribute
   }
 }
 
-void Ambassador::check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const {
+void AmbassadorParts::check(InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) const {
   if (interaction_class.value >= fom_.interaction_classes().size())
     throw RtiException(HlaError::interaction_class_not_defined, "interaction class " + std::to_string(interaction_class.value));
   if (regions.empty() || regions.size() > regions_per_message_max)

@@ -8,20 +8,20 @@
 namespace rink::rti {
 
 template <class Message>
-void Ambassador::say(Message message) {
+void AmbassadorParts::say(Message message) {
   if (phase_ != Phase::joining && phase_ != Phase::joined) refuse_stranger();
   append(message);
 }
 
 template <class Message>
-void Ambassador::append(Message& message) {
+void AmbassadorParts::append(Message& message) {
   write(outgoing_.begin_message(measure(message)), message);
   outgoing_.appended();
   open_.is_open = false;
 }
 
 template <class Header>
-void Ambassador::say_of(Header header, ObjectHandle object) {
+void AmbassadorParts::say_of(Header header, ObjectHandle object) {
   assert(phase_ == Phase::joined);
   const std::size_t size = measure(header) + object_record_max;
   if (!outgoing_.has_room(size)) object_block_writer_.close();

@@ -37,7 +37,7 @@ void Ambassador::disable_time_constrained() {
   say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::disable_constrained)});
 }
 
-void Ambassador::request_advance(AdvanceKind kind, LogicalTime time) {
+void AmbassadorParts::request_advance(AdvanceKind kind, LogicalTime time) {
   clock_.ask_advance(kind, time.value);
   say(AdvanceRequestMessage{static_cast<std::uint8_t>(kind), time.value});
 }
@@ -49,7 +49,7 @@ void Ambassador::modify_lookahead(double lookahead) {
 
 void Ambassador::query_time_bounds() { say(QueryTimeBoundsMessage{}); }
 
-AttributeSet Ambassador::timestamped(ObjectHandle object, ObjectClassHandle object_class) const {
+AttributeSet AmbassadorParts::timestamped(ObjectHandle object, ObjectClassHandle object_class) const {
   const auto changed = order_changes_.find(object.value);
   if (changed != order_changes_.end()) return changed->second;
   AttributeSet set;
@@ -59,7 +59,7 @@ AttributeSet Ambassador::timestamped(ObjectHandle object, ObjectClassHandle obje
   return set;
 }
 
-RetractionHandle Ambassador::say_timed(LogicalTime time, std::uint64_t tag, Bytes content) {
+RetractionHandle AmbassadorParts::say_timed(LogicalTime time, std::uint64_t tag, Bytes content) {
   TimedSendMessage message;
   message.number = clock_.ask_send(time.value);
   message.stamp = {time.value, tag};
@@ -167,7 +167,7 @@ void Ambassador::change_interaction_order_type(InteractionClassHandle interactio
   interaction_orders_[interaction_class.value] = order;
 }
 
-bool Ambassador::take_time(Reader& reader, std::uint8_t number) {
+bool AmbassadorParts::take_time(Reader& reader, std::uint8_t number) {
   const auto kind = static_cast<MessageKind>(number);
   if (kind == MessageKind::timed_delivery) return take_timed(reader);
   if (kind == MessageKind::time_advance_grant) {
@@ -195,7 +195,7 @@ bool Ambassador::take_time(Reader& reader, std::uint8_t number) {
   return true;
 }
 
-bool Ambassador::take_timed(Reader& reader) {
+bool AmbassadorParts::take_timed(Reader& reader) {
   TimedDeliveryMessage message;
   if (!exchange(reader, message) || timed_ != nullptr) return false;
   ++counters_.timed_received;
@@ -211,7 +211,7 @@ bool Ambassador::take_timed(Reader& reader) {
 }
 
 /// Keeps one message, with its stamp if it needs one, for `release_postponed`.
-bool Ambassador::postpone(Reader& reader, MessageKind kind) {
+bool AmbassadorParts::postpone(Reader& reader, MessageKind kind) {
   const Bytes body = reader.rest();
   bool is_read = false;
   if (kind == MessageKind::updates) {
@@ -233,7 +233,7 @@ bool Ambassador::postpone(Reader& reader, MessageKind kind) {
   return is_read;
 }
 
-bool Ambassador::release_postponed() {
+bool AmbassadorParts::release_postponed() {
   if (clock_.holds_receive_order()) return true;
   const std::vector<std::byte> messages = std::exchange(postponed_, {});
   Reader reader(messages);
