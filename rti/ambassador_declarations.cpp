@@ -9,6 +9,7 @@ namespace rink::rti {
 
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes) {
   require_class(object_class, attributes);
+  if (fom_.is_management(object_class)) throw RtiException(HlaError::unauthorized, "class " + fom_.at(object_class).name + " is the RTI's to publish");
   DeclaredState::Class& declared = declared_.objects[object_class.value];
   if (!declared.published.without(attributes).is_empty()) release_spared(object_class, AttributeSet(~0u));
   withdraw_publication(object_class, declared.published.without(attributes), attributes.is_empty());
@@ -36,6 +37,8 @@ void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_
 
 void AmbassadorParts::declare_publication(InteractionClassHandle interaction_class, bool is_published) {
   require_class(interaction_class);
+  if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class))
+    throw RtiException(HlaError::unauthorized, "class " + fom_.at(interaction_class).name + " is the RTI's to publish");
   DeclaredState::Class& declared = declared_.interactions[interaction_class.value];
   if (!is_published) declared = {};
   declared.published = AttributeSet(is_published);

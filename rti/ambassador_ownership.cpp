@@ -196,7 +196,7 @@ void Ambassador::set_automatic_resign_directive(ResignAction action) {
 
 /// What outlives its federate must be known to the RTI.
 void AmbassadorParts::say_directive(ResignAction action) {
-  declared_.is_deleting = action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+  declared_.is_deleting = deletes(action);
   if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }

@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "rti/ambassador.h"
+#include "rti/ambassador_say.h"
 #include "rti/fom/fom_digest.h"
+#include "rti/wire/declaration_messages.h"
 #include "rti/wire/fom_messages.h"
 #include "rti/wire/message.h"
 #include "rti/wire/time_messages.h"
@@ -123,6 +124,7 @@ bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
   federates_.front().first = federate_;
   object_block_ = message.object_block;
   frames_heard_ = 1;
+  if (declared_.is_on(Advisory::attribute_relevance)) say(AdvisorySwitchMessage{true});
   callbacks_.joined(federate_);
   return true;
 }

@@ -110,7 +110,7 @@ RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction
 RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, LogicalTime time, std::uint64_t tag) {
   if (interaction_class.value >= fom_.interaction_classes().size()) throw RtiException(HlaError::interaction_class_not_defined, std::to_string(interaction_class.value));
   const Order order = interaction_orders_.empty() ? fom_.at(interaction_class).order : interaction_orders_[interaction_class.value];
-  if (!clock_.is_regulating() || order == Order::receive) {
+  if (!clock_.is_regulating() || order == Order::receive || fom_.is_for_rti(interaction_class)) {
     send_directed_interaction(interaction_class, receiver, parameters, Stamp{time.value, tag});
     return {};
   }

@@ -1,7 +1,7 @@
 // What federates publish and subscribe, and who is told that somebody hears it (IEEE 1516.1-2010, clause 5; docs/rti.md, "Nobody listens").
 #include <algorithm>
 
-#include "rti/federation_parts.h"
+#include "rti/federation_management_objects.h"
 #include "rti/wire/declaration_messages.h"
 
 namespace rink::rti {
@@ -22,6 +22,7 @@ Outcome FederationExecution::Parts::publish_object_class(std::uint32_t slot, Rea
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   const ObjectClassHandle object_class{message.object_class};
   if (!fom_.attributes(object_class).includes(AttributeSet(message.attributes))) return Violation::unknown_name;
+  if (fom_.is_management(object_class)) return Violation::not_owned;
   const AttributeSet before = std::exchange(federate.published[message.object_class], AttributeSet(message.attributes));
   published_changed(slot, message.object_class, before);
   tell_relevance(slot, message.object_class);
@@ -46,6 +47,8 @@ Outcome FederationExecution::Parts::declare_interaction(std::uint32_t slot, Mess
   if (message.interaction_class >= fom_.interaction_classes().size()) return Violation::unknown_name;
   if (kind == MessageKind::publish_interaction_class) {
     if (message.is_declared > 1) return Violation::malformed;
+    const InteractionClassHandle interaction_class{message.interaction_class};
+    if (fom_.is_management(interaction_class) && !fom_.is_for_rti(interaction_class)) return Violation::not_owned;
     federates_[slot].published_interactions[message.interaction_class] = message.is_declared != 0;
     tell_relevance(slot, fom_.object_classes().size() + message.interaction_class);
     return std::nullopt;
@@ -87,12 +90,25 @@ void FederationExecution::Parts::subscribed(std::uint32_t slot) {
     if (federates_[slot].is_joined) now = row < object_classes ? interest_.subscribed_anywhere(slot, number) : Relevance::of(listening(slot, number));
     if (relevance_.set(slot, row, now)) tell_publishers(row);
   }
+  manage_subscriptions(slot);
+}
+
+void FederationExecution::Parts::manage_subscriptions(std::uint32_t slot) {
+  if (!management_objects_ && ManagementObjects::is_heard(*this)) management_objects_ = std::make_unique<ManagementObjects>(*this);
+  if (management_objects_) management_objects_->subscribed(slot);
+}
+
+/// What others than `slot` hear of a row. The RTI itself hears what the management object model lets federates ask of it.
+Subscription FederationExecution::Parts::others_hear(std::uint32_t slot, std::size_t row) const {
+  const std::size_t object_classes = fom_.object_classes().size();
+  if (row >= object_classes && fom_.is_for_rti(InteractionClassHandle{static_cast<std::uint32_t>(row - object_classes)})) return Relevance::of(Listening::active);
+  return relevance_.of_others(slot, row);
 }
 
 void FederationExecution::Parts::tell_publishers(std::size_t row) {
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
     const Federate& federate = federates_[slot];
-    if (federate.is_joined && publishes(slot, row) && federate.told_relevance[row] != relevance_.of_others(slot, row)) tell_relevance(slot, row);
+    if (federate.is_joined && publishes(slot, row) && federate.told_relevance[row] != others_hear(slot, row)) tell_relevance(slot, row);
   }
 }
 
@@ -105,7 +121,7 @@ void FederationExecution::Parts::tell_relevance(std::uint32_t slot, std::size_t 
   if (!publishes(slot, row)) return;
   const std::size_t object_classes = fom_.object_classes().size();
   const bool is_interaction = row >= object_classes;
-  const Subscription others = federates_[slot].told_relevance[row] = relevance_.of_others(slot, row);
+  const Subscription others = federates_[slot].told_relevance[row] = others_hear(slot, row);
   const auto number = static_cast<std::uint16_t>(is_interaction ? row - object_classes : row);
   say(federates_[slot].control, ClassRelevanceMessage{is_interaction, number, others.heard.bits, others.active.bits});
 }

@@ -3,7 +3,8 @@
 
 #include <stdexcept>
 
-#include "rti/federation_parts.h"
+#include "rti/federation_management_objects.h"
+#include "rti/federation_time.h"
 
 namespace rink::rti {
 
@@ -38,6 +39,7 @@ std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
 FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings, const FederationServices& services)
     : parts_(std::make_unique<Parts>(fom, settings, services, filter_called(settings))) {}
 FederationExecution::~FederationExecution() = default;
+FederationExecution::Parts::~Parts() = default;
 
 void FederationExecution::connect(ConnectionId connection) { parts_->connect(connection); }
 void FederationExecution::receive(ConnectionId connection, Bytes bytes) { parts_->receive(connection, bytes); }
@@ -54,6 +56,7 @@ void FederationExecution::match() {
 void FederationExecution::flush(Outlet& outlet) {
   parts_->settle_time();
   parts_->tell_object_relevance();
+  if (parts_->management_objects_) parts_->management_objects_->tell();
   parts_->flush(outlet);
 }
 const std::string& FederationExecution::name() const { return parts_->settings_.federation; }

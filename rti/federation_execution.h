@@ -71,6 +71,7 @@ struct FederationCounters {
   std::uint64_t joins = 0, resigns = 0;
   std::uint64_t timed_received = 0, timed_sent = 0, time_advance_grants = 0, retractions = 0;  ///< messages in time-stamp order; time management
   std::array<std::uint64_t, violation_count> drops{};    ///< by `Violation`
+  std::uint64_t management_updates = 0;      ///< of objects of the management object model that the RTI said
   /// Of best-effort updates: datagrams sent (their bytes are in those above), ignored for they made no sense, records sent again since they may have been lost,
   /// and how often a federate's datagrams went unanswered, so that it got everything by the stream, and were answered again.
   std::uint64_t datagrams_sent = 0, datagrams_ignored = 0, updates_repaired = 0, datagram_fallbacks = 0, datagram_recoveries = 0;

@@ -180,7 +180,11 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::siz
 void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
   FederateInterest& interest = interest_.of(slot);
   const Object& object = objects_[at];
-  if (!interest.known.contains(at)) say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+  if (!interest.known.contains(at)) {
+    say(scratch_, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+    ++federates_[slot].objects_discovered;
+    if (is_auto_providing_) ask_owners(slot, at, interest.told(at, object.object_class), {});
+  }
   if (object.negotiation != Object::no_negotiation && !interest.known.contains(at)) offer_to(slot, at, ownership_.all(at));
   interest.known.insert(at);
   interest.unannounced.erase(at);

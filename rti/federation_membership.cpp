@@ -3,7 +3,7 @@
 
 #include "rti/buffering/newest_state.h"
 #include "rti/distribution/interest.h"
-#include "rti/federation_parts.h"
+#include "rti/federation_management_objects.h"
 #include "rti/federation_time.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/groups/member_lists.h"
@@ -42,7 +42,9 @@ FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& sett
       buffering_(buffering_of(services)),
       baselines_(fom, settings.keyframe_period),
       relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
-      groups_(groups_of(services)) {
+      groups_(groups_of(services)),
+      management_(fom),
+      is_auto_providing_(fom.switches().auto_provide) {
   list_best_effort();
 }
 
@@ -139,6 +141,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   federate.subscribed_interactions.resize(fom_.interaction_classes().size());
   federate.told_relevance.resize(relevance_.row_count());
   federate.last_said = now_;
+  federate.resign_action = fom_.switches().automatic_resign_action;
   slot_of_handle_.push_back(slot);
   names_.emplace(federate.name, slot);
   interest_.add_federate(slot);
@@ -150,6 +153,7 @@ void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessag
   for (Federate& other : federates_)
     if (other.is_watching) say(other.control, FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
   join_points(slot);
+  if (management_objects_) management_objects_->joined(slot);
 }
 
 void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
@@ -164,6 +168,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   names_.erase(federate.name);
   federate.is_joined = federate.is_watching = false;
   subscribed(slot);
+  if (management_objects_) management_objects_->left(slot);
   groups_->remove_federate(slot);
   leave_names(slot);
   leave_points(slot);

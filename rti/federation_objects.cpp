@@ -1,7 +1,7 @@
 // Object management at the RTI beyond updates: names, local deletion, requests for updates, transportation.
 #include <algorithm>
 
-#include "rti/federation_parts.h"
+#include "rti/federation_management_objects.h"
 #include "rti/wire/region_messages.h"
 
 namespace rink::rti {
@@ -113,6 +113,7 @@ Outcome FederationExecution::Parts::request_update(std::uint32_t slot, Reader& r
 void FederationExecution::Parts::ask_owners(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   const Object& asked = objects_[object];
+  if (management_objects_ && management_objects_->owns(object)) return management_objects_->ask(object, attributes);
   const auto ask = [&](std::uint32_t owner) {
     const AttributeSet owned = owner == slot ? AttributeSet() : attributes & ownership_.owned_by(owner, object) & fom_.attributes(ObjectClassHandle{asked.object_class});
     if (owned.is_empty()) return;

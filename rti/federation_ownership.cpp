@@ -221,7 +221,7 @@ void FederationExecution::Parts::published_changed(std::uint32_t slot, std::uint
 
 void FederationExecution::Parts::leave_objects(std::uint32_t slot) {
   const ResignAction action = federates_[slot].resign_action;
-  const bool is_deleting = action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+  const bool is_deleting = deletes(action);
   ownership_.forget_claims(slot);
   for_each_owned(slot, [&](ObjectSlot object) {
     if (is_deleting && ownership_.owner_of(object, privilege_to_delete_object) == slot) return delete_object(object);

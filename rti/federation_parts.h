@@ -11,6 +11,7 @@
 #include "rti/federation_execution.h"
 #include "rti/distribution/relevance.h"
 #include "rti/federation_services.h"
+#include "rti/management/management_handles.h"
 #include "rti/questions.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/message.h"
@@ -55,6 +56,10 @@ class FederationExecution::Parts {
     std::optional<Stamp> stamp;  ///< of the updates in the frame at hand, once it was said
     Stamp newest;                ///< of its latest update: all that it says of its objects holds at least until then
     double last_said = 0.0;
+    double report_period = 0.0;  ///< of its HLAfederate object [s]; 0: none
+    double lookahead = 0.0;      ///< as it last asked for [s]
+    bool is_advancing = false;   ///< in logical time
+    std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
     FederateCounts counts;       ///< what is counted as it happens; `report` adds the rest
     std::uint32_t frames = 0;          ///< sent to it
     bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
@@ -111,6 +116,21 @@ class FederationExecution::Parts {
   std::vector<std::uint32_t> count_owned() const;
   void tell_time(std::uint32_t slot, FederateCounts& counts) const;
   void answer_queries(Outlet& outlet);
+  std::vector<std::uint32_t> count_deletable() const;
+
+  // The management object model (federation_management_objects.h). Nothing is kept, and nothing done, while nobody subscribes to it.
+  class ManagementObjects;
+  void manage_subscriptions(std::uint32_t slot);
+  Subscription others_hear(std::uint32_t slot, std::size_t row) const;
+  Outcome take_management(std::uint32_t slot, const InteractionMessage& message);
+  void report_to_all(std::uint32_t asking, InteractionClassHandle report, Bytes parameters);
+  template <class SetOf, class Write>
+  void report_classes(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, SetOf set_of, Write write);
+  template <class IsNamed>
+  void report_interactions(std::uint32_t asking, std::uint32_t about, InteractionClassHandle report, IsNamed is_named);
+  void report_publications(std::uint32_t asking, std::uint32_t about);
+  void report_subscriptions(std::uint32_t asking, std::uint32_t about);
+  void report_points(std::uint32_t asking);
   Outcome register_point(Reader& reader, std::uint32_t slot);
   std::optional<SynchronizationFailure> find_members(const RegisterSynchronizationPointMessage& message, SynchronizationPoint& point) const;
   Outcome achieve_point(Reader& reader, std::uint32_t slot);
@@ -295,6 +315,9 @@ class FederationExecution::Parts {
   std::vector<Range> ranges_;  ///< of the region at hand
   FederationCounters counters_;
   std::unique_ptr<Time> time_;
+  ManagementHandles management_;
+  std::unique_ptr<ManagementObjects> management_objects_;  ///< null until somebody subscribes to its objects
+  bool is_auto_providing_ = false;
   double now_ = 0.0;
 
   /// A part of the message to one destination: a stretch of `scratch_`, or of somebody's bytes.

@@ -147,6 +147,7 @@ Outcome FederationExecution::Parts::delete_object(std::uint32_t slot, Reader& re
   const ObjectSlot object = objects_.find({message.object});
   if (object == no_object) return is_late({message.object}) ? Outcome() : Violation::unknown_name;
   if (objects_[object].owner != slot && ownership_.owner_of(object, privilege_to_delete_object) != slot) return Violation::not_owned;
+  ++federates_[slot].objects_deleted;
   delete_object(object);
   return std::nullopt;
 }
@@ -165,6 +166,7 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
     if (federates_[i].is_joined) interest_.of(i).unannounced.erase(object);
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
+    ++federates_[i].objects_removed;
     RemoveObjectMessage removal{objects_[object].handle.value};
     say(federates_[i].tail, removal);
     counters_.scope_bytes_sent += measure(removal);
@@ -227,6 +229,8 @@ Outcome FederationExecution::Parts::deliver_interaction(std::uint32_t slot, Inte
   // Interactions are never held back, so a shouter would fill the queues of those who listen, and they would be closed instead of it.
   const std::span<const std::uint32_t> receivers = groups_->receivers(message.interaction_class, slot);
   if (!receivers.empty()) federates_[slot].said += interaction_head + message.parameters.size();
+  if (fom_.is_management(InteractionClassHandle{message.interaction_class}))
+    if (const Outcome outcome = take_management(slot, message)) return outcome;
   if (federates_[slot].said > settings_.interaction_bytes_per_flush_max) return Violation::over_limit;
   const std::uint32_t only = message.federate;
   message.federate = federates_[slot].handle.value;

@@ -58,6 +58,17 @@ std::vector<std::uint32_t> FederationExecution::Parts::count_owned() const {
   return owned;
 }
 
+/// By federate slot: objects that it may delete.
+std::vector<std::uint32_t> FederationExecution::Parts::count_deletable() const {
+  std::vector<std::uint32_t> deletable(federates_.size(), 0);
+  for (ObjectSlot slot = 0; slot < objects_.slot_count(); ++slot) {
+    if (!objects_[slot].is_alive) continue;
+    const std::uint32_t owner = ownership_.owner_of(slot, privilege_to_delete_object);
+    if (owner < deletable.size()) ++deletable[owner];
+  }
+  return deletable;
+}
+
 /// One report serves all who asked since the last flush.
 void FederationExecution::Parts::answer_queries(Outlet& outlet) {
   if (management_queries_.empty()) return;

@@ -10,8 +10,6 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-FederationExecution::Parts::~Parts() = default;
-
 Outcome FederationExecution::Parts::take_time(std::uint32_t slot, MessageKind kind, Reader& reader) {
   federates_[slot].has_stream_only = true;  // whose messages wait for its time, which no datagram could keep up with
   if (!time_) {
@@ -30,7 +28,6 @@ void FederationExecution::Parts::leave_time(std::uint32_t slot) {
 }
 
 Outcome FederationExecution::Parts::Time::take(std::uint32_t slot, MessageKind kind, Reader& reader) {
-  const auto judged = [](bool is_allowed) { return is_allowed ? Outcome() : Violation::untimely; };
   switch (kind) {
     case MessageKind::timed_send: return take_message(slot, reader);
     case MessageKind::retract: return retract(slot, reader);
@@ -41,13 +38,17 @@ Outcome FederationExecution::Parts::Time::take(std::uint32_t slot, MessageKind k
     case MessageKind::advance_request: {
       AdvanceRequestMessage message;
       if (!exchange(reader, message)) return Violation::malformed;
-      return judged(management_->request(slot, static_cast<AdvanceKind>(message.advance), message.time));
+      if (!management_->request(slot, static_cast<AdvanceKind>(message.advance), message.time)) return Violation::untimely;
+      parts_.federates_[slot].is_advancing = true;
+      return std::nullopt;
     }
     default: break;
   }
   EnableTimeRegulationMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  return judged(kind == MessageKind::modify_lookahead ? management_->modify_lookahead(slot, message.seconds) : management_->enable_regulation(slot, message.seconds));
+  const bool is_allowed = kind == MessageKind::modify_lookahead ? management_->modify_lookahead(slot, message.seconds) : management_->enable_regulation(slot, message.seconds);
+  if (is_allowed) parts_.federates_[slot].lookahead = message.seconds;
+  return is_allowed ? Outcome() : Violation::untimely;
 }
 
 Outcome FederationExecution::Parts::Time::take_switch(std::uint32_t slot, Reader& reader) {

@@ -182,6 +182,7 @@ void FederationExecution::Parts::Time::constrained_enabled(std::uint32_t federat
 }
 void FederationExecution::Parts::Time::grant(std::uint32_t federate, double time) {
   say(parts_.federates_[federate].tail, TimeAdvanceGrantMessage{time});
+  parts_.federates_[federate].is_advancing = false;
   ++parts_.counters_.time_advance_grants;
 }
 

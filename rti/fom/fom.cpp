@@ -77,6 +77,12 @@ std::optional<DimensionHandle> Fom::dimension(std::string_view name) const {
   return index ? std::optional(DimensionHandle{*index}) : std::nullopt;
 }
 
+bool Fom::is_for_rti(InteractionClassHandle handle) const {
+  if (!is_management(handle) || !at(handle).parent) return false;
+  const std::string& parent = at(at(handle).parent).name;
+  return parent == "HLAadjust" || parent == "HLArequest";
+}
+
 std::optional<AttributeHandle> Fom::periodic_attribute(ObjectClassHandle handle) const {
   const std::vector<Attribute>& attributes = at(handle).attributes;
   for (std::uint32_t i = 0; i < attributes.size(); ++i)

@@ -13,6 +13,7 @@
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/attribute_set.h"
 #include "rti/fom/dimension_set.h"
+#include "rti/fom/fom_switches.h"
 #include "rti/fom/quantised_codec.h"
 #include "rti/wire/bytes.h"
 #include "rti/handles.h"
@@ -100,6 +101,12 @@ class Fom {
   const std::vector<ObjectClass>& object_classes() const { return object_classes_; }
   const std::vector<InteractionClass>& interaction_classes() const { return interaction_classes_; }
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
+  const FomSwitches& switches() const { return switches_; }
+  /// True of a class of the management object model, which every model has behind its own (docs/rti.md, "Management"): the RTI's to speak of.
+  bool is_management(ObjectClassHandle handle) const { return handle.value >= own_object_classes_; }
+  bool is_management(InteractionClassHandle handle) const { return handle.value >= own_interaction_classes_; }
+  /// True of those among them that federates send, for the RTI to act upon.
+  bool is_for_rti(InteractionClassHandle handle) const;
 
   /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the root ("HLAobjectRoot.Entity").
   /// Nothing if there is none, or several.
@@ -128,7 +135,8 @@ class Fom {
   /// Where the value of `attribute` stands in `values` of `set` (its length word included if its size varies); values must fit.
   Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute, Bytes values) const;
 
-  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs; not of comments, layout or semantics. FNV-1a.
+  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs, switches; not of comments, layout, semantics or the management object model, which is always the
+  /// same. FNV-1a.
   std::uint64_t hash() const { return hash_; }
 
  private:
@@ -137,6 +145,8 @@ class Fom {
   std::vector<ObjectClass> object_classes_;
   std::vector<InteractionClass> interaction_classes_;
   std::vector<Dimension> dimensions_;
+  FomSwitches switches_;
+  std::size_t own_object_classes_ = 0, own_interaction_classes_ = 0;  ///< those before the management object model's
   std::uint64_t hash_ = 0;
 };
 

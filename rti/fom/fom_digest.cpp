@@ -45,7 +45,7 @@ std::size_t inherited_count(const std::vector<Class>& classes, const Class& each
 
 void add_objects(const Fom& fom, std::vector<Element>& elements) {
   const auto& classes = fom.object_classes();
-  for (std::size_t i = 0; i < classes.size(); ++i) {
+  for (std::uint32_t i = 0; i < classes.size() && !fom.is_management(ObjectClassHandle{i}); ++i) {
     const std::string name = "object class '" + path_of(classes, i) + "'";
     elements.push_back({name, ""});
     for (std::size_t k = inherited_count(classes, classes[i], &ObjectClass::attributes); k < classes[i].attributes.size(); ++k) {
@@ -59,7 +59,7 @@ void add_objects(const Fom& fom, std::vector<Element>& elements) {
 
 void add_interactions(const Fom& fom, std::vector<Element>& elements) {
   const auto& classes = fom.interaction_classes();
-  for (std::size_t i = 0; i < classes.size(); ++i) {
+  for (std::uint32_t i = 0; i < classes.size() && !fom.is_management(InteractionClassHandle{i}); ++i) {
     const InteractionClass& own = classes[i];
     const std::string name = "interaction class '" + path_of(classes, i) + "'";
     elements.push_back({name, number(static_cast<std::uint64_t>(own.transportation)) + number(static_cast<std::uint64_t>(own.order)) + names_of(fom, own.dimensions)});
@@ -73,6 +73,7 @@ std::vector<Element> elements_of(const Fom& fom) {
   add_objects(fom, elements);
   add_interactions(fom, elements);
   for (const Dimension& each : fom.dimensions()) elements.push_back({"dimension '" + each.name + "'", number(each.upper_bound.value_or(0))});
+  if (const std::string switches = fom.switches().text(); !switches.empty()) elements.push_back({"the table of switches", switches});
   return elements;
 }
 

@@ -9,6 +9,7 @@
 #include "rti/fom/data_types.h"
 #include "rti/fom/fom.h"
 #include "rti/fom/fom_modules.h"
+#include "rti/fom/management_classes.h"
 #include "rti/fom/quantisation_reader.h"
 
 namespace rink::rti {
@@ -68,7 +69,12 @@ Fom FomReader::read() {
   for (const Group& group : modules_.groups(objects, "objectClass")) read_object_class(group, {});
   for (const Group& group : modules_.groups(interactions, "interactionClass")) read_interaction_class(group, {});
   types_.check();
+  fom_.switches_ = read_switches(modules_);
   fom_.hash_ = hash();
+  fom_.own_object_classes_ = fom_.object_classes_.size();
+  fom_.own_interaction_classes_ = fom_.interaction_classes_.size();
+  const bool brings_its_own = std::ranges::any_of(fom_.object_classes_, [](const ObjectClass& each) { return each.name == "HLAmanager"; });  // a module of the standard's
+  if (!brings_its_own) append_management_classes(fom_.object_classes_, fom_.interaction_classes_);
   return std::move(fom_);
 }
 
@@ -255,6 +261,7 @@ std::uint64_t FomReader::hash() const {
   for (const ObjectClass& each : fom_.object_classes_)
     for (const Attribute& attribute : each.attributes)
       if (attribute.baselines) mix("baselines " + each.name + " " + attribute.name);
+  if (const std::string switches = fom_.switches_.text(); !switches.empty()) mix("switches " + switches);
   return value;
 }
 

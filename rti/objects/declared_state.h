@@ -18,7 +18,13 @@ struct DeclaredState {
     AttributeSet sent;                   ///< an update of these was sent once: the RTI may hold a value
     bool is_relevant = false;            ///< as the federate was told
   };
-  explicit DeclaredState(const Fom& fom) : objects(fom.object_classes().size()), interactions(fom.interaction_classes().size()), spared(fom) {}
+  explicit DeclaredState(const Fom& fom)
+      : objects(fom.object_classes().size()), interactions(fom.interaction_classes().size()), spared(fom), switches(of(fom.switches())), is_deleting(deletes(fom.switches().automatic_resign_action)) {}
+  static unsigned of(const FomSwitches& model) {
+    const auto bit = [](Advisory advisory, bool is_on) { return (is_on ? 1u : 0u) << static_cast<unsigned>(advisory); };
+    return bit(Advisory::object_class_relevance, model.object_class_relevance_advisory) | bit(Advisory::attribute_relevance, model.attribute_relevance_advisory) |
+           bit(Advisory::attribute_scope, model.attribute_scope_advisory) | bit(Advisory::interaction_relevance, model.interaction_relevance_advisory);
+  }
 
   /// Before each update: false, and nothing else is to be done, if somebody hears it and nothing of it is kept back.
   bool is_special(ObjectClassHandle object_class, AttributeSet attributes) const {
@@ -37,8 +43,8 @@ struct DeclaredState {
   SparedValues spared;
   ObjectMap<AttributeSet> relevant_objects;  ///< of own objects: attributes in somebody's scope, as far as the federate was told
   Stamp newest;                              ///< of the latest update, be it kept back
-  unsigned switches = 0b1101;                ///< by `Advisory`; the relevance of single attributes costs messages, so it is to be asked for
-  bool is_deleting = true;                   ///< what is owned whole ends with its federate, however that leaves
+  unsigned switches;                         ///< by `Advisory`, at first as the model says; the relevance of single attributes costs messages
+  bool is_deleting;                          ///< what is owned whole ends with its federate, however that leaves
 };
 
 }  // namespace rink::rti

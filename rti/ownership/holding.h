@@ -16,6 +16,10 @@ enum class ResignAction : std::uint8_t {
   cancel_then_delete_then_divest,        ///< the default, also for a federate that is lost
   no_action,
 };
+/// True if what a federate owns whole ends with it.
+constexpr bool deletes(ResignAction action) {
+  return action == ResignAction::delete_objects || action == ResignAction::delete_objects_then_divest || action == ResignAction::cancel_then_delete_then_divest;
+}
 
 /// Kept only while a federate owns some but not all of an object, or negotiates about it. What it gave up by its own word it holds no longer, whatever the RTI answers;
 /// should nobody have taken it after all, the RTI gives it back.

@@ -1,0 +1,100 @@
+// Values of the management object model: how the RTI writes them, and how a federate that subscribes to it reads them.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "rti/handles.h"
+#include "rti/wire/bytes.h"
+
+namespace rink::rti {
+
+/// Appends values as the standard encodes them, big-endian; one of varying size behind its length [bytes], a little-endian u32, as all that travel here.
+class ManagementWriter {
+ public:
+  explicit ManagementWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+
+  /// HLAcount, HLAseconds and HLAboolean: HLAinteger32BE; what is too great for it is its greatest.
+  void count(std::uint64_t value) {
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    big_endian(value < most ? value : most, 4);
+  }
+  /// HLAhandle: u32.
+  void handle(std::uint32_t value) { big_endian(value, 4); }
+  /// HLAlogicalTime and HLAtimeInterval: HLAfloat64BE [s].
+  void time(double value) { big_endian(std::bit_cast<std::uint64_t>(value), 8); }
+  /// HLAunicodeString: UTF-8.
+  void text(std::string_view value) {
+    length(value.size());
+    const auto* first = reinterpret_cast<const std::byte*>(value.data());
+    bytes_.insert(bytes_.end(), first, first + value.size());
+  }
+  /// HLAhandleList: u32 each.
+  void handles(const std::vector<std::uint32_t>& values) {
+    length(4 * values.size());
+    for (const std::uint32_t each : values) handle(each);
+  }
+
+ private:
+  void length(std::size_t size) {
+    for (unsigned byte = 0; byte < 4; ++byte) bytes_.push_back(static_cast<std::byte>(size >> 8 * byte & 0xff));
+  }
+  void big_endian(std::uint64_t value, unsigned size) {
+    while (size-- > 0) bytes_.push_back(static_cast<std::byte>(value >> 8 * size & 0xff));
+  }
+
+  std::vector<std::byte>& bytes_;
+};
+
+/// Reads them one after the other. What is cut short reads as zeros and empty texts, and is no longer `is_whole`.
+class ManagementReader {
+ public:
+  explicit ManagementReader(Bytes bytes) : bytes_(bytes) {}
+
+  std::int32_t count() { return static_cast<std::int32_t>(big_endian(4)); }
+  std::uint32_t handle() { return static_cast<std::uint32_t>(big_endian(4)); }
+  double time() { return std::bit_cast<double>(big_endian(8)); }
+  std::string_view text() {
+    const Bytes found = varying();
+    return {reinterpret_cast<const char*>(found.data()), found.size()};
+  }
+  std::vector<std::uint32_t> handles() {
+    ManagementReader list(varying());
+    std::vector<std::uint32_t> found;
+    while (!list.bytes_.empty() && list.is_whole()) found.push_back(list.handle());
+    is_whole_ = is_whole_ && list.is_whole();
+    return found;
+  }
+  bool is_whole() const { return is_whole_; }
+  bool is_at_end() const { return bytes_.empty(); }
+
+ private:
+  Bytes take(std::size_t size) {
+    is_whole_ = is_whole_ && size <= bytes_.size();
+    if (!is_whole_) return {};
+    const Bytes found = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return found;
+  }
+  Bytes varying() {
+    std::size_t size = 0;
+    const Bytes word = take(4);
+    for (std::size_t byte = word.size(); byte-- > 0;) size = size << 8 | std::to_integer<std::size_t>(word[byte]);
+    return take(size);
+  }
+  std::uint64_t big_endian(std::size_t size) {
+    std::uint64_t value = 0;
+    for (const std::byte each : take(size)) value = value << 8 | std::to_integer<std::uint64_t>(each);
+    return value;
+  }
+
+  Bytes bytes_;
+  bool is_whole_ = true;
+};
+
+}  // namespace rink::rti
