@@ -51,12 +51,14 @@ bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_wh
 bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }
 
 std::size_t measured(const Arrivals& m) {
-  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), hold = size_of<Hold>(), key = size_of<Key>();
-  return empty + m.bodies.size() * body + m.holds.size() * hold + m.keys.size() * key + checksum_size;
+  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), hold = size_of<Hold>(), key = size_of<Key>(), glimpse = size_of<Glimpse>(), puck = size_of<Glimpse::Puck>();
+  std::size_t seen = m.glimpses.size() * glimpse;
+  for (const Glimpse& shown : m.glimpses) seen += shown.pucks.size() * puck;
+  return empty + m.bodies.size() * body + m.holds.size() * hold + m.keys.size() * key + seen + checksum_size;
 }
 std::size_t measured(const Claims& m) {
-  static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>();
-  return empty + m.bodies.size() * body + m.flights.size() * flight + checksum_size;
+  static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>(), press = size_of<Press>();
+  return empty + m.bodies.size() * body + m.flights.size() * flight + m.presses.size() * press + checksum_size;
 }
 std::size_t measured(const Verdict&) {
   static const std::size_t size = size_of<Verdict>();

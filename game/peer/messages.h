@@ -19,10 +19,32 @@ struct Key {
   double time = 0.0;
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};
+  std::uint8_t input = 0;  ///< of a live player: what it did, for logs alone; 0 for keys that everybody knows from the start
+};
+
+/// What a live player does with a key of its bat, on its way to the bat's owner, who stamps it.
+struct Press {
+  std::uint32_t bat = 0;
+  Vector2 thrust{0.0, 0.0};  ///< from the stamp on [m/s^2]
+  std::uint8_t input = 1;    ///< as Key's, not 0
+};
+
+/// What the owner of a bat shows, at a window's end, to the peer that plays it.
+struct Glimpse {
+  struct Puck {
+    std::uint32_t number = 0;
+    Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
+    double radius = 0.0;
+  };
+  std::uint32_t bat = 0;
+  std::uint32_t owner = 0;   ///< in the next window: keys go there
+  double time = 0.0;         ///< s
+  Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};
+  std::vector<Puck> pucks;   ///< the nearest of those that the owner has, its ghosts among them, nearest first
 };
 
 /// At a window's start: bodies of the sender that the receiver does not know in this state and shall simulate or own, all rest contacts of those of the sender's bodies that the
-/// receiver now has, and the keys that fall into the window.
+/// receiver now has, and the keys that fall into the window. And what the players of the receiver may see.
 struct Arrivals {
   struct Body {
     std::uint32_t number = 0;
@@ -32,6 +54,7 @@ struct Arrivals {
   std::vector<Body> bodies;
   std::vector<Hold> holds;
   std::vector<Key> keys;
+  std::vector<Glimpse> glimpses;
 };
 
 /// A stretch of a body's path that ends at the next one, or with the window.
@@ -43,7 +66,8 @@ struct ClaimedFlight {
 };
 
 /// After a window has been played: what happened, in the sender's run, to those of its bodies that the receiver has as ghosts, one flight for each event; and the whole paths,
-/// from the window's start, of others that come into the receiver's halo. Nothing is said about ghosts to which nothing happened.
+/// from the window's start, of others that come into the receiver's halo. Nothing is said about ghosts to which nothing happened. With the first claims of a window go the keys
+/// that the sender's players press of the receiver's bats.
 struct Claims {
   struct Body {
     std::uint32_t number = 0;
@@ -54,6 +78,7 @@ struct Claims {
   std::uint32_t known_count = 0;     ///< of the sender's bodies that the receiver has as ghosts: both count the same
   std::vector<Body> bodies;
   std::vector<ClaimedFlight> flights;
+  std::vector<Press> presses;
 };
 
 /// Whether the sender's run of the window can stand, by all claims that it has heard.
@@ -83,7 +108,17 @@ bool exchange(Stream& stream, Hold& hold) {
 
 template <class Stream>
 bool exchange(Stream& stream, Key& key) {
-  return stream.numbers(key.time, key.bat, key.thrust.x(), key.thrust.y());
+  return stream.numbers(key.time, key.bat, key.thrust.x(), key.thrust.y(), key.input);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Press& press) {
+  return stream.numbers(press.bat, press.thrust.x(), press.thrust.y(), press.input) && press.thrust.allFinite() && press.input != 0;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Glimpse::Puck& puck) {
+  return stream.numbers(puck.number, puck.position.x(), puck.position.y(), puck.velocity.x(), puck.velocity.y(), puck.radius);
 }
 
 template <class Stream>
@@ -116,13 +151,22 @@ bool exchange_list(Stream& stream, std::vector<Item>& list) {
 }
 
 template <class Stream>
+bool exchange(Stream& stream, Glimpse& glimpse) {
+  return stream.numbers(glimpse.bat, glimpse.owner, glimpse.time, glimpse.position.x(), glimpse.position.y(), glimpse.velocity.x(), glimpse.velocity.y()) &&
+         exchange_list(stream, glimpse.pucks);
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Arrivals& message) {
-  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.holds) && exchange_list(stream, message.keys);
+  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.holds) && exchange_list(stream, message.keys) &&
+         exchange_list(stream, message.glimpses);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Claims& message) {
-  if (!stream.numbers(message.window, message.known_count) || !exchange_list(stream, message.bodies) || !exchange_list(stream, message.flights)) return false;
+  if (!stream.numbers(message.window, message.known_count) || !exchange_list(stream, message.bodies) || !exchange_list(stream, message.flights) ||
+      !exchange_list(stream, message.presses))
+    return false;
   std::size_t count = 0;
   for (const Claims::Body& body : message.bodies) count += body.flight_count;
   return count == message.flights.size();

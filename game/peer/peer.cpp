@@ -44,6 +44,7 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       is_edge_(body_count, 0),
       owners_(body_count, 0),
       known_(division.peer_count()),
+      presses_(division.peer_count()),
       claims_(division.peer_count()),
       verdicts_(division.peer_count()),
       arrivals_(division.peer_count()) {
@@ -66,11 +67,6 @@ void Peer::begin(double until) {
   owned_.clear();
   settle(std::move(candidates));
   share_keys(until);
-}
-
-void Peer::press(const Key& key) {
-  assert(roles_[key.bat] == own && key.time >= end_);
-  keys_.push_back(key);
 }
 
 Vector2 Peer::start_place(std::uint32_t body) const {
@@ -191,6 +187,7 @@ Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
     if (contains(there, hold.low) || contains(there, hold.high)) message.holds.push_back(hold);
   for (const Key& key : keys_)
     if (contains(there, key.bat) && (key.time <= until || division_.owner_of(portion_.world().position({key.bat})) == peer)) message.keys.push_back(key);
+  message.glimpses = glimpses_for(peer);
   counters_.arrival_bytes += measured(message);
   return message;
 }
@@ -246,6 +243,8 @@ void Peer::correct_doubtful() {
 }
 
 void Peer::commit(double until) {
+  glimpses_ = glimpses_for(number_);
+  note_log();
   correct_doubtful();
   std::vector<Hold> holds = portion_.holds();
   const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
@@ -259,6 +258,7 @@ void Peer::commit(double until) {
       if (body < roles_.size()) candidates.push_back(body);
     holds.insert(holds.end(), arrivals_[from].holds.begin(), arrivals_[from].holds.end());
     keys_.insert(keys_.end(), arrivals_[from].keys.begin(), arrivals_[from].keys.end());
+    take_glimpses(from);
   }
   for (Arrivals& arrivals : arrivals_) arrivals = {};
   set_holds(std::move(holds));

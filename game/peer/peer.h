@@ -25,6 +25,16 @@ struct PeerCounters {
   PeerCounters& operator+=(const PeerCounters& other);
 };
 
+/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ... [s], at the `puck_count` nearest pucks.
+struct Seat {
+  std::uint32_t bat = 0;
+  PeerNumber peer = 0;
+  double period = 0.05, phase = 0.0;
+  std::uint32_t puck_count = 0;
+  /// Whether that is in the window from `begin` [s], not included, to `end`.
+  bool is_due(double begin, double end) const;
+};
+
 enum class Outcome : std::uint8_t { final, repeat };
 
 /// The protocol, in the order in which it goes (docs/peer-to-peer.md). Everybody calls `play`; then each makes claims for each other and hears those of all others, judges, and hears all
@@ -40,10 +50,18 @@ class Peer {
   /// After that; the first window will end at `until` [s].
   void begin(double until);
 
-  /// Of a bat that it owns, stamped no earlier than the window that is being played, or was played last, ends.
-  void press(const Key& key);
   /// Of a bat that it owns, before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
+
+  /// Before the first window, the same at all peers: who plays the bat. One player for each.
+  void seat(const Seat& seat) { seats_.push_back(seat); }
+  /// What the own players may see now, since the last commit.
+  const std::vector<Glimpse>& glimpses() const { return glimpses_; }
+  /// After a commit and before the claims of the next window: an own player's key, which goes to `owner`, the one that the newest glimpse of the bat names. It is stamped there
+  /// with the end of that window.
+  void press(PeerNumber owner, const Press& press) { presses_[owner].push_back(press); }
+  /// Keys of live players that took effect on own bats in the last window, in order.
+  const std::vector<Key>& log() const { return log_; }
 
   void play();
   Claims claims_for(PeerNumber peer);
@@ -129,6 +147,13 @@ class Peer {
   bool trusts_ghosts();
   bool accuse(PeerNumber peer, const std::string& of);
 
+  // peer_players.cpp
+  Glimpse glimpse_of(const Seat& seat) const;
+  std::vector<Glimpse> glimpses_for(PeerNumber peer) const;
+  void take_glimpses(PeerNumber from);
+  void take_presses();
+  void note_log();
+
   physics::Portion portion_;
   Division division_;
   PeerNumber number_;
@@ -147,6 +172,10 @@ class Peer {
   std::vector<Reach> outskirts_;    // own bodies that are not at home at the window's end: what they and their companions take up then
   std::vector<std::vector<std::uint32_t>> known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
   std::vector<Key> keys_, due_;     // still to come, of own bats; in this window
+  std::vector<Seat> seats_;
+  std::vector<Glimpse> glimpses_;
+  std::vector<std::vector<Press>> presses_;  // by owner: to go with the next claims
+  std::vector<Key> log_;
   std::vector<Step> steps_;         // of ghosts and of own bodies that were not at home all the time; by body
   std::vector<Events> mixed_;       // events of own bodies and ghosts
   std::vector<Path> paths_;         // of own bodies that were not at home all the time

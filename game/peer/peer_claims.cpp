@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "game/peer/peer.h"
 
@@ -136,6 +137,7 @@ Claims Peer::claims_for(PeerNumber peer) {
     message.bodies.push_back({path.body, static_cast<std::uint32_t>(path.end - begin), is_known});
     for (std::size_t k = begin; k < path.end; ++k) message.flights.push_back(claimed(flights_[k].begin, flights_[k].state, flights_[k].box));
   }
+  message.presses = std::exchange(presses_[peer], {});
   counters_.claim_bytes += measured(message);
   return message;
 }
@@ -165,7 +167,9 @@ bool Peer::hears_truth() {
 const Verdict& Peer::judge() {
   Verdict& verdict = verdicts_[number_];
   const double halo = halos_[number_], needed = needed_halo();
-  const bool is_trusted = hears_truth() && trusts_ghosts();
+  const bool is_true = hears_truth();
+  if (is_true) take_presses();
+  const bool is_trusted = is_true && trusts_ghosts();
   verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);

@@ -11,7 +11,8 @@ namespace {
 Arrivals some_arrivals() {
   SharedScene scene = shared_scene(6, 0.2);
   scene.world.advance(0.2);
-  Arrivals message{.window = 3, .bodies = {}, .holds = {{.low = 2, .high = 5, .axis = 1, .age = {}}}, .keys = scene.keys};
+  Arrivals message{.window = 3, .bodies = {}, .holds = {{.low = 2, .high = 5, .axis = 1, .age = {}}}, .keys = scene.keys, .glimpses = {}};
+  message.glimpses = {{.bat = 4, .owner = 1, .time = 0.2, .position = {1.0, 2.0}, .pucks = {{.number = 9, .radius = 0.04}, {}}}, {}};
   for (std::uint32_t body = 0; body < 20; ++body) message.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
   return message;
 }
@@ -33,14 +34,20 @@ void expect_kept(const Message& message) {
 
 TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
   expect_kept(some_arrivals());
-  expect_kept(Claims{.window = 2, .known_count = 7, .bodies = {{4, 2, true}, {9, 1, false}}, .flights = {{0.5, 99, 0.0f, 1.0f, 2.0f, 3.0f}, {0.6, 98}, {0.0, 0}}});
+  expect_kept(Claims{.window = 2, .known_count = 7, .bodies = {{4, 2, true}, {9, 1, false}}, .flights = {{0.5, 99, 0.0f, 1.0f, 2.0f, 3.0f}, {0.6, 98}, {0.0, 0}}, .presses = {{3, {1.0, -2.0}, 5}, {}}});
   expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<double>::infinity(), .at_once_max = 3, .was_hopeless = true});
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {
-  Claims claims{.window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}};
+  Claims claims{.window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}, .presses = {}};
   Claims heard;
   EXPECT_FALSE(read(written(claims), heard));
+}
+
+TEST(Messages, WithThrustsThatAreNoNumberAreRefused) {
+  Claims heard;
+  EXPECT_FALSE(read(written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {std::nan(""), 0.0}, 5}}}), heard));
+  EXPECT_FALSE(read(written(Claims{.window = 2, .bodies = {}, .flights = {}, .presses = {{3, {1.0, 0.0}, 0}}}), heard));
 }
 
 /// Two halves of a gas, the left one's peer after a window.

@@ -1,0 +1,67 @@
+// Live players: what they see of the bats that others own, and how their keys get there.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "game/peer/peer.h"
+
+namespace rink::peer {
+
+bool Seat::is_due(double begin, double end) const {
+  const auto count = [this](double time) { return std::floor((time - phase) / period); };
+  return end >= phase && (begin < phase || count(end) > count(begin));
+}
+
+Glimpse Peer::glimpse_of(const Seat& seat) const {
+  const physics::World& world = portion_.world();
+  Glimpse glimpse{.bat = seat.bat, .owner = 0, .time = world.now(), .position = world.position({seat.bat}), .velocity = world.velocity({seat.bat}), .pucks = {}};
+  glimpse.owner = division_.owner_of(glimpse.position);
+  std::vector<std::pair<double, std::uint32_t>> nearest;
+  if (seat.puck_count > 0)
+    for (const std::vector<std::uint32_t>* bodies : {&owned_, &ghosts_})
+      for (const std::uint32_t body : *bodies)
+        if (world.kind({body}) == physics::BodyKind::puck && world.is_in_play({body})) nearest.emplace_back((world.position({body}) - glimpse.position).squaredNorm(), body);
+  const std::size_t count = std::min<std::size_t>(seat.puck_count, nearest.size());
+  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end());
+  nearest.resize(count);
+  for (const auto& [square, body] : nearest) glimpse.pucks.push_back({body, world.position({body}), world.velocity({body}), world.radius({body})});
+  return glimpse;
+}
+
+/// Of own bats whose players are due, at a window's end.
+std::vector<Glimpse> Peer::glimpses_for(PeerNumber peer) const {
+  std::vector<Glimpse> glimpses;
+  for (const Seat& seat : seats_)
+    if (seat.peer == peer && roles_[seat.bat] == own && seat.is_due(start_, end_)) glimpses.push_back(glimpse_of(seat));
+  return glimpses;
+}
+
+void Peer::take_glimpses(PeerNumber from) {
+  for (Glimpse& glimpse : arrivals_[from].glimpses) {
+    const auto is_it = [&](const Seat& seat) { return seat.bat == glimpse.bat && seat.peer == number_; };
+    if (glimpse.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it)) accuse(from, "shows bat " + std::to_string(glimpse.bat) + ", which nobody plays here");
+    else glimpses_.push_back(std::move(glimpse));
+  }
+}
+
+/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still be told of.
+void Peer::take_presses() {
+  claims_[number_].presses = std::exchange(presses_[number_], {});
+  for (PeerNumber from = 0; from < claims_.size(); ++from) {
+    for (const Press& press : claims_[from].presses) {
+      const auto is_it = [&](const Seat& seat) { return seat.bat == press.bat && seat.peer == from; };
+      if (std::none_of(seats_.begin(), seats_.end(), is_it)) accuse(from, "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
+      else if (roles_[press.bat] != own) accuse(from, "presses a key of bat " + std::to_string(press.bat) + " here, where it is not");
+      else keys_.push_back({end_, press.bat, press.thrust, press.input});
+    }
+    claims_[from].presses.clear();
+  }
+}
+
+void Peer::note_log() {
+  log_.clear();
+  for (const Key& key : due_)
+    if (key.input != 0 && roles_[key.bat] == own) log_.push_back(key);
+}
+
+}  // namespace rink::peer
