@@ -30,7 +30,7 @@ const std::vector<Layer> layers{
     {"game/match", {"game/match", "game/control", "game/players", "game/model", "game/physics"}},
     {"game/players", {"game/players", "game/model", "game/physics"}},
     {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im"}},
-    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
     {"game/view", {"game/view", "game/view/render", "game/match", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},

@@ -141,6 +141,38 @@ TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
   }
 }
 
+TEST_F(PeerCommand, RecordsWhatBotsOfAllPeersPlayedLiveAsAKeyLogOfTheSameGame) {
+  const std::string file = (folder_ / "live.keys").string();
+  for (const char* pace : {"free", "realtime"}) {
+    Process& first = found(3, "2", {"--bots", "3", "--players", "chaser,random", "--record", file, "--pace", pace});
+    const std::vector<const Process*> all{&first, &join(first, {"--bots", "4", "--players", "waypoint"}), &join(first)};
+    for (const Process* peer : all) ASSERT_TRUE(ends(*peer));
+    const KeyLog log = read_key_log(std::filesystem::path(file));
+    const Scene shared = load_scene(scene());
+    require_fit(log, shared, file);
+    Game one(shared);
+    for (const InputEvent& event : log.events) one.submit(event);
+    one.advance(2.0);
+    std::vector<int> counts(8, 0);
+    for (const InputEvent& event : log.events) ++counts[event.player];
+    EXPECT_THAT(std::span(counts).first(7), testing::Each(testing::Gt(0)));
+    EXPECT_EQ(counts[7], 0);
+    for (const Process* peer : all) EXPECT_EQ(hash_of(*peer), printed(one.hash())) << pace;
+    EXPECT_EQ(log.hash, one.hash());
+  }
+}
+
+TEST_F(PeerCommand, LetsNobodyPlayMoreBatsThanThereAre) {
+  const Process& greedy = start({"--listen", "127.0.0.1:0", "--bots", "9"});
+  ASSERT_TRUE(ends(greedy));
+  EXPECT_THAT(greedy.last_words(), HasSubstr("--bots: 9 wanted, the scene has 8 bats"));
+  Process& first = found(2, "1", {"--bots", "5"});
+  const Process& late = join(first, {"--bots", "4"});
+  ASSERT_TRUE(ends(late));
+  EXPECT_EQ(late.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
+  EXPECT_THAT(late.last_words(), HasSubstr("it wants to play 4 bats, of 8 here 3 are free"));
+}
+
 TEST_F(PeerCommand, RefusesOtherScenesAndOneTooManyByNameAndGoesOn) {
   Process& first = found(2, "1");
   std::ofstream(folder_ / "other.toml") << small_scene << "[match]\nface_off_delay = 2.0\n";
@@ -241,12 +273,12 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
     return frame && frame->kind == FrameKind::refusal ? message_from<Refused>(frame->content) : std::nullopt;
   };
   Hello hello;
-  hello.luggage = luggage, hello.place = {"127.0.0.1", 1};
+  hello.luggage = luggage, hello.guest.place = {"127.0.0.1", 1};
   hello.version = peer_protocol_version + 1;
   const auto version = answer_to(hello);
   ASSERT_TRUE(version);
   EXPECT_EQ(version->kind, RefusalKind::wrong_version);
-  EXPECT_THAT(version->reason, HasSubstr("speaks version 2 of the peers' protocol, here it is version 1"));
+  EXPECT_THAT(version->reason, HasSubstr("speaks version 3 of the peers' protocol, here it is version 2"));
   hello.version = peer_protocol_version;
   ++hello.luggage.self_test;
   const auto build = answer_to(hello);
@@ -262,9 +294,9 @@ TEST_F(PeerCommand, LosesNoMoreThanTheConnectionToStrangersWhoSayAnything) {
   std::vector<std::vector<std::uint8_t>> words{{'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '\r', '\n'}, {0, 0, 0, 0, 0}, {255, 255, 255, 255, 0}, {1, 0, 0, 0, 9}};
   for (const FrameKind kind : {FrameKind::hello, FrameKind::welcome, FrameKind::elsewhere, FrameKind::refusal, FrameKind::greeting, FrameKind::mail, FrameKind::farewell})
     words.push_back(framed(kind, std::vector<std::uint8_t>(40, 0x55)));
-  words.push_back(framed(FrameKind::greeting, bytes_of(Greeting{.session = 1, .number = 1, .place = {"127.0.0.1", 1}})));
+  words.push_back(framed(FrameKind::greeting, bytes_of(Greeting{.session = 1, .number = 1, .guest = {{"127.0.0.1", 1}}})));
   Hello damaged;
-  damaged.place = {"127.0.0.1", 1};
+  damaged.guest.place = {"127.0.0.1", 1};
   std::vector<std::uint8_t> content = bytes_of(damaged);
   for (std::size_t k = 0; k < content.size(); ++k) {
     std::vector<std::uint8_t> other = content;

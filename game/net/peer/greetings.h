@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 1;
+inline constexpr std::uint32_t peer_protocol_version = 2;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
@@ -24,6 +24,12 @@ struct Place {
   std::string address;
   std::uint16_t port = 0;
   std::string text() const { return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port); }
+};
+
+/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks.
+struct Guest {
+  Place place;
+  std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0;
 };
 
 /// What every peer brings along, and must be equal at all.
@@ -45,15 +51,17 @@ struct Hello {
   std::array<std::uint8_t, 8> magic{'R', 'i', 'n', 'k', 'P', 'e', 'e', 'r'};
   std::uint32_t version = peer_protocol_version;
   Luggage luggage;
-  Place place;
+  Guest guest;  ///< which bats, the first peer says
   bool is_of_this_version() const { return version == peer_protocol_version; }
 };
 
-/// The first peer's answer: the newcomer is number `others.size()`, and these, in order of their numbers, are there already.
+/// The first peer's answer: the newcomer is number `others.size()`, and these, in order of their numbers, are there already. It plays bats from
+/// `first_bat` on.
 struct Welcome {
   std::uint64_t session = 0;
   Terms terms;
-  std::vector<Place> others;
+  std::uint32_t first_bat = 0;
+  std::vector<Guest> others;
 };
 
 /// The answer of any other peer: ask the first one, which is there.
@@ -72,7 +80,7 @@ struct Refused {
 struct Greeting {
   std::uint64_t session = 0;
   std::uint32_t number = 0;
-  Place place;
+  Guest guest;
 };
 
 enum class FarewellKind : std::uint8_t { done, interrupted, trouble };
@@ -97,19 +105,24 @@ bool exchange(Stream& stream, Place& place) {
 }
 
 template <class Stream>
+bool exchange(Stream& stream, Guest& guest) {
+  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count);
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Hello& hello) {
   for (std::uint8_t& byte : hello.magic)
     if (!stream.number(byte)) return false;
   if (hello.magic != Hello().magic || !stream.number(hello.version)) return false;
   Luggage& luggage = hello.luggage;
-  return !hello.is_of_this_version() || (stream.numbers(luggage.self_test, luggage.scene, luggage.keys) && exchange(stream, hello.place));
+  return !hello.is_of_this_version() || (stream.numbers(luggage.self_test, luggage.scene, luggage.keys) && exchange(stream, hello.guest));
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
-  if (!stream.numbers(welcome.session, welcome.terms.peer_count, welcome.terms.until, welcome.terms.window) || !stream.size(welcome.others)) return false;
-  for (Place& place : welcome.others)
-    if (!exchange(stream, place)) return false;
+  if (!stream.numbers(welcome.session, welcome.terms.peer_count, welcome.terms.until, welcome.terms.window, welcome.first_bat) || !stream.size(welcome.others)) return false;
+  for (Guest& guest : welcome.others)
+    if (!exchange(stream, guest)) return false;
   const Terms& terms = welcome.terms;
   return terms.fit() && !welcome.others.empty() && welcome.others.size() < terms.peer_count;
 }
@@ -126,7 +139,7 @@ bool exchange(Stream& stream, Refused& refused) {
 
 template <class Stream>
 bool exchange(Stream& stream, Greeting& greeting) {
-  return stream.numbers(greeting.session, greeting.number) && exchange(stream, greeting.place);
+  return stream.numbers(greeting.session, greeting.number) && exchange(stream, greeting.guest);
 }
 
 template <class Stream>

@@ -51,11 +51,11 @@ void Meeting::push(rti::ConnectionId connection, Link& link) {
   }
 }
 
-void Meeting::dial(const Place& place, Role role, peer::PeerNumber number) {
-  const rti::ConnectionId connection = sockets_.connect(place.address, place.port);
+void Meeting::dial(const Guest& guest, Role role, peer::PeerNumber number) {
+  const rti::ConnectionId connection = sockets_.connect(guest.place.address, guest.place.port);
   Link& link = links_[connection];
-  link.role = role, link.place = place, link.since_s = now_s_();
-  if (role == Role::peer) become_peer(connection, number, place);
+  link.role = role, link.guest = guest, link.since_s = now_s_();
+  if (role == Role::peer) become_peer(connection, number, guest);
 }
 
 void Meeting::say(rti::ConnectionId connection, FrameKind kind, const std::vector<std::uint8_t>& content) {
@@ -86,7 +86,7 @@ void Meeting::on_open(rti::ConnectionId connection) {
     if (static_cast<std::size_t>(std::count_if(links_.begin(), links_.end(), is_one)) > strangers_max) dismiss(connection);
   } else if (link.role == Role::asked) {
     Hello hello;
-    hello.luggage = settings_.luggage, hello.place = settings_.place;
+    hello.luggage = settings_.luggage, hello.guest = settings_.self;
     say(connection, FrameKind::hello, bytes_of(hello));
   } else {
     push(connection, link);
@@ -110,7 +110,7 @@ void Meeting::read_frames(rti::ConnectionId connection) {
     if (is_good) continue;
     if (role == Role::stranger) return dismiss(connection);
     note(role == Role::peer ? ExitStatus::failed : ExitStatus::no_server,
-         role == Role::peer ? name_of(link) + " sent what is no message" : "what answers at " + link.place.text() + " is no peer of this version");
+         role == Role::peer ? name_of(link) + " sent what is no message" : "what answers at " + link.guest.place.text() + " is no peer of this version");
     link.is_closed = true;
     sockets_.get().close(connection);
   }
@@ -124,7 +124,7 @@ void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason, co
   link.is_closed = true;
   link.outbox.clear();
   if (link.role == Role::peer && !link.is_done) note(ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
-  if (link.role == Role::asked) note(ExitStatus::no_server, "no peer answers at " + link.place.text() + ": " + why);
+  if (link.role == Role::asked) note(ExitStatus::no_server, "no peer answers at " + link.guest.place.text() + ": " + why);
   if (link.role != Role::peer) links_.erase(entry);
 }
 
@@ -153,6 +153,10 @@ std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
   std::vector<std::uint8_t> first = std::move(link.inbox.front());
   link.inbox.pop_front();
   return first;
+}
+
+void Meeting::rest_until(double time_s) {
+  for (double left_s = time_s - now_s_(); left_s > 0.0; left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
 }
 
 void Meeting::leave(const Farewell& farewell) {

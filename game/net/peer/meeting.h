@@ -28,7 +28,8 @@ class Parting : public std::runtime_error {
 };
 
 struct MeetingSettings {
-  Place place;              ///< where others reach this peer, which listens there already
+  Guest self;               ///< where others reach this peer, which listens there already; and how many bats it plays, of so many:
+  std::uint32_t bats = 0;
   Luggage luggage;
   std::uint64_t session = 0;  ///< of a first peer: a number that nobody guesses
   double patience_s = 30.0;   ///< with one whose answer is due
@@ -45,11 +46,15 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void join(const Place& any);
   /// Until all are connected.
   void gather();
+  /// Does nothing but listen until `time_s` of the clock.
+  void rest_until(double time_s);
   /// Says goodbye to all, and sees that all that was sent is on its way.
   void leave(const Farewell& farewell);
 
   const Terms& terms() const { return terms_; }
   peer::PeerNumber number() const { return number_; }
+  /// All of them, by number, once they are gathered.
+  const std::vector<Guest>& guests() const { return guests_; }
   /// Strangers who were sent away, and the bytes of all frames to peers.
   std::uint64_t dismissed() const { return dismissed_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
@@ -63,7 +68,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
     Role role = Role::stranger;
     bool is_open = false, is_closed = false, is_done = false;
     peer::PeerNumber number = 0;
-    Place place;
+    Guest guest;
     double since_s = 0.0;
     FrameReader reader;
     std::optional<Greeting> early;  ///< came before we knew our own number
@@ -80,7 +85,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void read_frames(rti::ConnectionId connection);
   void push_all();
   void push(rti::ConnectionId connection, Link& link);
-  void dial(const Place& place, Role role, peer::PeerNumber number);
+  void dial(const Guest& guest, Role role, peer::PeerNumber number);
   void say(rti::ConnectionId connection, FrameKind kind, const std::vector<std::uint8_t>& content);
   void dismiss(rti::ConnectionId connection);
   void refuse(rti::ConnectionId connection, RefusalKind kind, const std::string& reason);
@@ -90,11 +95,11 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void answer(rti::ConnectionId connection, const Hello& hello);
   void admit(rti::ConnectionId connection, const Greeting& greeting);
   void enter(rti::ConnectionId connection, const Welcome& welcome);
-  void become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Place& place);
+  void become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Guest& guest);
   void note(ExitStatus status, const std::string& what);
   bool are_all_here() const;
   Link& link_of(peer::PeerNumber number) { return links_.at(*peers_[number]); }
-  static std::string name_of(const Link& link) { return "peer " + std::to_string(link.number) + " (" + link.place.text() + ")"; }
+  static std::string name_of(const Link& link) { return "peer " + std::to_string(link.number) + " (" + link.guest.place.text() + ")"; }
 
   rti::SocketTransport& sockets_;
   MeetingSettings settings_;
@@ -105,7 +110,8 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   int redirections_ = 0;
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
-  std::vector<Place> places_;                            ///< of a first peer: of all whom it has let in, itself first
+  std::vector<Guest> guests_;                            ///< by number: whom the first peer has let in, or who has said that it was
+  std::uint32_t guest_count_ = 1, bats_taken_ = 0;       ///< of a first peer
   std::optional<Parting> trouble_;
   std::uint64_t dismissed_ = 0, bytes_sent_ = 0;
 };

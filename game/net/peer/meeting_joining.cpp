@@ -34,11 +34,13 @@ void Meeting::found(const Terms& terms) {
   terms_ = terms;
   is_in_ = true;
   peers_.resize(terms.peer_count);
-  places_ = {settings_.place};
+  guests_.resize(terms.peer_count);
+  guests_[0] = settings_.self;
+  bats_taken_ = settings_.self.bat_count;
 }
 
 void Meeting::join(const Place& any) {
-  dial(any, Role::asked, 0);
+  dial({any, 0, 0, 0}, Role::asked, 0);
   for (const double give_up_s = now_s_() + settings_.patience_s; !is_in_;) {
     if (now_s_() > give_up_s) throw Parting(ExitStatus::no_server, "no peer has answered at " + any.text());
     attend(0.05);
@@ -55,10 +57,11 @@ void Meeting::gather() {
   while (!are_all_here()) attend(0.05);
 }
 
-void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Place& place) {
+void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Guest& guest) {
   Link& link = links_.at(connection);
-  link.role = Role::peer, link.number = number, link.place = place;
+  link.role = Role::peer, link.number = number, link.guest = guest;
   peers_[number] = connection;
+  guests_[number] = guest;
 }
 
 /// False for what no peer would say.
@@ -81,14 +84,19 @@ void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
   if (!is_in_) return refuse(connection, RefusalKind::other, "the peer that it asked is itself not in yet");
   if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
   if (number_ != 0) {
-    say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{places_[0]}));
+    say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{guests_[0].place}));
     return;
   }
-  if (!is_reachable(hello.place)) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
-  if (places_.size() == terms_.peer_count) return refuse(connection, RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers are there already");
-  become_peer(connection, static_cast<peer::PeerNumber>(places_.size()), hello.place);
-  say(connection, FrameKind::welcome, bytes_of(Welcome{settings_.session, terms_, places_}));
-  places_.push_back(hello.place);
+  Guest guest = hello.guest;
+  if (!is_reachable(guest.place)) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
+  if (guest_count_ == terms_.peer_count) return refuse(connection, RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers are there already");
+  if (const std::uint32_t free = settings_.bats - bats_taken_; guest.bat_count > free)
+    return refuse(connection, RefusalKind::other, "it wants to play " + std::to_string(guest.bat_count) + " bats, of " + std::to_string(settings_.bats) + " here " + std::to_string(free) + " are free");
+  guest.first_bat = bats_taken_;
+  bats_taken_ += guest.bat_count;
+  const std::vector<Guest> others(guests_.begin(), guests_.begin() + guest_count_);
+  become_peer(connection, guest_count_++, guest);
+  say(connection, FrameKind::welcome, bytes_of(Welcome{settings_.session, terms_, guest.first_bat, others}));
 }
 
 void Meeting::admit(rti::ConnectionId connection, const Greeting& greeting) {
@@ -97,8 +105,8 @@ void Meeting::admit(rti::ConnectionId connection, const Greeting& greeting) {
     return;
   }
   const bool is_due = greeting.session == settings_.session && greeting.number > number_ && greeting.number < terms_.peer_count && !peers_[greeting.number];
-  if (!is_due || !is_reachable(greeting.place)) return refuse(connection, RefusalKind::other, "it is none of this session's peers");
-  become_peer(connection, greeting.number, greeting.place);
+  if (!is_due || !is_reachable(greeting.guest.place)) return refuse(connection, RefusalKind::other, "it is none of this session's peers");
+  become_peer(connection, greeting.number, greeting.guest);
 }
 
 bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
@@ -106,7 +114,7 @@ bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
     const auto refused = message_from<Refused>(frame.content);
     if (refused)
       note(refused->kind == RefusalKind::wrong_version ? ExitStatus::wrong_version : ExitStatus::not_admitted,
-           "the peer at " + links_.at(connection).place.text() + " does not let this one in: " + refused->reason);
+           "the peer at " + links_.at(connection).guest.place.text() + " does not let this one in: " + refused->reason);
     return refused.has_value();
   }
   if (frame.kind == FrameKind::elsewhere) {
@@ -114,13 +122,13 @@ bool Meeting::hear_answer(rti::ConnectionId connection, const Frame& frame) {
     if (!elsewhere || !is_reachable(elsewhere->first) || redirections_++ > 0) return false;
     links_.erase(connection);
     sockets_.get().close(connection);
-    dial(elsewhere->first, Role::asked, 0);
+    dial({elsewhere->first, 0, 0, 0}, Role::asked, 0);
     return true;
   }
   const auto welcome = frame.kind == FrameKind::welcome ? message_from<Welcome>(frame.content) : std::nullopt;
   if (!welcome) return false;
-  for (const Place& place : welcome->others)
-    if (!is_reachable(place)) return false;
+  for (const Guest& guest : welcome->others)
+    if (!is_reachable(guest.place)) return false;
   enter(connection, *welcome);
   return true;
 }
@@ -130,12 +138,15 @@ void Meeting::enter(rti::ConnectionId connection, const Welcome& welcome) {
   settings_.session = welcome.session;
   terms_ = welcome.terms;
   number_ = static_cast<peer::PeerNumber>(welcome.others.size());
-  places_ = welcome.others;
+  settings_.self.first_bat = welcome.first_bat;
+  guests_ = welcome.others;
+  guests_.resize(terms_.peer_count);
+  guests_[number_] = settings_.self;
   peers_.resize(terms_.peer_count);
-  become_peer(connection, 0, places_[0]);
+  become_peer(connection, 0, guests_[0]);
   for (peer::PeerNumber k = 1; k < number_; ++k) {
-    dial(places_[k], Role::peer, k);
-    say(*peers_[k], FrameKind::greeting, bytes_of(Greeting{settings_.session, number_, settings_.place}));
+    dial(guests_[k], Role::peer, k);
+    say(*peers_[k], FrameKind::greeting, bytes_of(Greeting{settings_.session, number_, settings_.self}));
   }
   std::vector<rti::ConnectionId> early;
   for (const auto& [other, link] : links_)

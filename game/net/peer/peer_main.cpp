@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/interrupt.h"
+#include "game/net/peer/crowd.h"
 #include "game/net/peer/meeting.h"
 #include "game/net/peer/shared_game.h"
 
@@ -26,9 +28,10 @@ using namespace rink;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string scene, keys, listen, join, transport = "tcp";
+  std::string scene, keys, listen, join, record, pace = "free", transport = "tcp";
+  std::vector<std::string> players{"chaser"};
   std::uint64_t seed = 0;
-  std::uint32_t bats = 0;
+  std::uint32_t bats = 0, bots = 0;
   double patience_s = 30.0;
   game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02};
 };
@@ -40,6 +43,12 @@ double processor_s() {
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string player_names() {
+  std::string names;
+  for (const std::string& name : game::player_kinds()) names += ", " + name;
+  return names;
 }
 
 game::SharedGame game_of(const Options& options) {
@@ -85,6 +94,8 @@ Json report_of(const game::PlayedPart& part, const game::Meeting& meeting, doubl
           {"own_events", counters.own_events},
           {"ghost_events", counters.ghost_events},
           {"hand_overs", counters.hand_overs},
+          {"bots", meeting.guests()[meeting.number()].bat_count},
+          {"key_presses", part.presses},
           {"arrival_bytes", counters.arrival_bytes},
           {"claim_bytes", counters.claim_bytes},
           {"verdict_bytes", counters.verdict_bytes},
@@ -94,6 +105,19 @@ Json report_of(const game::PlayedPart& part, const game::Meeting& meeting, doubl
           {"wall_s", playing_s},
           {"cpu_s", processor_s()},
           {"hash", hash}};
+}
+
+void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part, const game::Terms& terms) {
+  if (options.record.empty()) return;
+  game::KeyLog log = game::key_log_for(shared.scene());
+  log.scene_text = game::scene_text(options.scene);
+  log.until = terms.until;
+  log.hash = part.hash;
+  log.events = part.keys;
+  // Whoever has the scene has these.
+  for (const game::InputEvent& scripted : shared.scene().keys)
+    if (const auto found = std::find(log.events.begin(), log.events.end(), scripted); found != log.events.end()) log.events.erase(found);
+  game::write_key_log(std::filesystem::path(options.record), log);
 }
 
 /// From the first word to the last; whoever is connected is told why it ends early.
@@ -111,9 +135,12 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     std::printf("playing\n");
     std::fflush(stdout);
     const double start_s = now_s();
-    const game::PlayedPart part = shared.play(meeting.terms(), meeting.number(), meeting);
+    game::Manner manner{.players = options.players, .before_window = {}};
+    if (options.pace == "realtime") manner.before_window = [&](double time) { meeting.rest_until(start_s + time); };
+    const game::PlayedPart part = shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
     const double playing_s = now_s() - start_s;
     meeting.leave({});
+    write_record(options, shared, part, meeting.terms());
     std::printf("%s\n", report_of(part, meeting, playing_s).dump(2).c_str());
     return game::ExitStatus::ok;
   } catch (const game::Parting& parting) {
@@ -128,7 +155,11 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
 }
 
 game::ExitStatus run(const Options& options) {
+  game::require_writable("--record", options.record);
   const game::SharedGame shared = game_of(options);
+  if (options.bots > shared.bat_count())
+    throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
+  if (options.bots > 0 && shared.has_keys()) throw std::invalid_argument("--bots: the scene or the key log has keys already, and nobody can play beside them");
   game::Place place = place_of(options);
   rti::SocketTransport sockets(options.transport);
   place.port = sockets.listen(place.address, place.port);
@@ -137,7 +168,8 @@ game::ExitStatus run(const Options& options) {
   std::random_device device;
   const std::uint64_t upper = device();
   const std::uint64_t session = upper << 32 | device();
-  game::Meeting meeting(sockets, {.place = place, .luggage = shared.luggage(), .session = session, .patience_s = options.patience_s}, now_s);
+  const game::Guest self{.place = place, .bat_count = options.bots, .puck_count = game::Crowd::pucks_wanted(shared.scene(), options.players)};
+  game::Meeting meeting(sockets, {.self = self, .bats = shared.bat_count(), .luggage = shared.luggage(), .session = session, .patience_s = options.patience_s}, now_s);
   return share(options, shared, meeting);
 }
 
@@ -161,6 +193,13 @@ void add_options(CLI::App& app, Options& options) {
   app.name("rink peer");
   app.add_option("--scene", options.scene, "a scene file or the name of a preset; the same for all, without goals")->required();
   app.add_option("--keys", options.keys, "a recorded key log to play, the same for all (default: the scene's scripted keys only)");
+  app.add_option("--bots", options.bots, "how many bats this peer plays, the next ones that are free; 0: it only computes")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
+  app.add_option("--players", options.players, "who plays them, in turn, separated by commas: random" + player_names() + "; seeded like the scene")
+      ->delimiter(',')
+      ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : "'" + name + "' is no player: expected random" + player_names(); })
+      ->capture_default_str();
+  app.add_option("--pace", options.pace, "realtime: by the clock; free: as fast as they can")->check(CLI::IsMember({"realtime", "free"}))->capture_default_str();
+  app.add_option("--record", options.record, "write everybody's keys and the final hash to this key log; rink replay plays it again, and so does rink simulate --keys");
   app.add_option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")->capture_default_str();
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
   app.add_option("--listen", options.listen, "where others reach this peer; port 0 takes any free one (default of those who join a peer of this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT");

@@ -8,14 +8,14 @@
 
 #include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
+#include "game/net/peer/crowd.h"
 
 namespace rink::game {
 
 namespace {
 
-std::vector<InputEvent> merged(const Scene& scene, const std::vector<InputEvent>& recorded) {
-  std::vector<InputEvent> keys = scene.keys;
-  keys.insert(keys.end(), recorded.begin(), recorded.end());
+std::vector<InputEvent> merged(std::vector<InputEvent> keys, const std::vector<InputEvent>& further) {
+  keys.insert(keys.end(), further.begin(), further.end());
   std::stable_sort(keys.begin(), keys.end(), [](const InputEvent& a, const InputEvent& b) { return std::tuple(a.time, a.player) < std::tuple(b.time, b.player); });
   return keys;
 }
@@ -29,7 +29,7 @@ BatController controller_of(const Scene& scene, std::uint32_t player) { return B
 
 }  // namespace
 
-SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(shareable(scene)), keys_(merged(scene, recorded)), start_(scene) {
+SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(shareable(scene)), keys_(merged(scene.keys, recorded)), start_(scene) {
   for (const InputEvent& key : keys_)
     if (key.kind == InputKind::enter || key.kind == InputKind::leave)
       throw SceneError("player " + std::to_string(key.player) + (key.kind == InputKind::enter ? " enters" : " leaves") + " at " + std::to_string(key.time) +
@@ -71,39 +71,79 @@ std::vector<peer::Key> SharedGame::thrusts() const {
   return keys;
 }
 
-std::uint64_t SharedGame::hash(std::uint64_t world, double until) const {
+std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until) const {
   std::vector<BatController> players;
   std::vector<const BatController*> hands;
   for (std::uint32_t k = 0; k < start_.player_count(); ++k) players.push_back(controller_of(scene_, k));
-  for (const InputEvent& event : keys_)
+  for (const InputEvent& event : keys)
     if (event.time <= until) players[event.player].press(event.key, event.kind == InputKind::key_down);
   for (const BatController& player : players) hands.push_back(&player);
   return begun_game_hash(world, start_.entities(), hands, {}).value();
 }
 
-PlayedPart SharedGame::play(const Terms& terms, peer::PeerNumber number, peer::Mail& mail) const {
+std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
+  std::vector<peer::Seat> seats;
+  std::vector<std::uint8_t> is_taken(start_.player_count(), 0);
+  for (peer::PeerNumber number = 0; number < guests.size(); ++number)
+    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count; player < end; ++player) {
+      if (player >= is_taken.size() || std::exchange(is_taken[player], std::uint8_t{1}) != 0)
+        throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " + std::to_string(player) + ", which is taken or not there");
+      const auto k = static_cast<std::uint32_t>(player);
+      seats.push_back({.bat = start_.bat(k)->index, .peer = number, .period = decision_period, .phase = decision_phase(k), .puck_count = guests[number].puck_count});
+    }
+  return seats;
+}
+
+/// Everybody's together.
+std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> logs) const {
+  std::vector<InputEvent> keys;
+  for (const peer::Arrivals& log : logs)
+    for (const peer::Key& key : log.keys) {
+      if (key.bat >= start_.world().body_count() || !start_.entity({key.bat}).player || key.input == 0) throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) + ", which nobody plays");
+      keys.push_back(event_of(key.input, key.time, *start_.entity({key.bat}).player));
+    }
+  return merged(keys_, keys);
+}
+
+PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
   const physics::World& whole = start_.world();
-  const std::uint32_t body_count = whole.body_count();
-  peer::Peer peer(whole.spec(), division(terms.peer_count), number, body_count, first_halo(terms.window));
-  for (std::uint32_t body = 0; body < body_count; ++body) peer.consider(body, physics::Portion::state_in(whole, body));
+  peer::Peer peer(whole.spec(), division(terms.peer_count), number, whole.body_count(), first_halo(terms.window));
+  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer.consider(body, physics::Portion::state_in(whole, body));
   for (const peer::Key& key : thrusts()) peer.press_first(key);
+  for (const peer::Seat& seat : seats(guests)) peer.seat(seat);
+  Crowd crowd(scene_, start_, manner.players, scene_.seed, guests[number].first_bat, guests[number].bat_count, terms.until);
   const auto window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window)));
   // The last window ends at `until`, the one that is prepared then, and never played, one window later.
   const auto end_of = [&](std::uint64_t k) { return k == window_count ? terms.until : k > window_count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
+  std::vector<peer::Key> log;
   peer.begin(end_of(1));
-  for (std::uint64_t k = 1; k <= window_count; ++k) peer::play_window(peer, terms.peer_count, mail, end_of(k + 1));
+  for (std::uint64_t k = 1; k <= window_count; ++k) {
+    if (manner.before_window) manner.before_window(peer.now());
+    peer::play_window(peer, terms.peer_count, mail, end_of(k + 1));
+    log.insert(log.end(), peer.log().begin(), peer.log().end());
+    crowd.act(peer);
+  }
+  PlayedPart part = end(terms, peer, std::move(log), mail);
+  part.presses = crowd.presses();
+  return part;
+}
 
-  PlayedPart part{.counters = peer.counters(), .owned = peer.owned().size(), .ghosts = peer.ghosts().size(), .halo = peer.halo()};
+/// Everybody tells everybody what it has, and what its players did.
+PlayedPart SharedGame::end(const Terms& terms, const peer::Peer& peer, std::vector<peer::Key> log, peer::Mail& mail) const {
+  PlayedPart part{.counters = peer.counters(), .owned = peer.owned().size(), .ghosts = peer.ghosts().size(), .halo = peer.halo(), .keys = {}};
   std::vector<peer::Arrivals> parts(terms.peer_count);
-  parts[number] = peer::own_bodies(peer);
-  const std::vector<std::uint8_t> bytes = written(parts[number]);
+  parts[peer.number()] = peer::own_bodies(peer);
+  parts[peer.number()].keys = std::move(log);
+  const std::vector<std::uint8_t> bytes = written(parts[peer.number()]);
   for (peer::PeerNumber to = 0; to < terms.peer_count; ++to)
-    if (to != number) mail.send(to, bytes), part.result_bytes += bytes.size();
+    if (to != peer.number()) mail.send(to, bytes), part.result_bytes += bytes.size();
   for (peer::PeerNumber from = 0; from < terms.peer_count; ++from)
-    if (from != number && !read(mail.receive(from), parts[from])) throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no list of bodies");
-  const auto world = peer::hash_of_whole(whole.spec(), body_count, parts);
+    if (from != peer.number() && !read(mail.receive(from), parts[from])) throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no list of bodies");
+  const physics::World& whole = start_.world();
+  const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
-  part.hash = hash(*world, terms.until);
+  part.keys = keys_with(parts);
+  part.hash = hash(*world, part.keys, terms.until);
   return part;
 }
 

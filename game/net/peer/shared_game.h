@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "game/control/game.h"
@@ -17,6 +20,14 @@ struct PlayedPart {
   double halo = 0.0;                    ///< m, likewise
   std::uint64_t result_bytes = 0;       ///< sent, with the own bodies' last states
   std::uint64_t hash = 0;               ///< of the whole: Game::hash(), as rink simulate prints it
+  std::uint64_t presses = 0;            ///< of the own bots
+  std::vector<InputEvent> keys;         ///< of all live players, as their owners stamped them, and all recorded ones; ordered by time, then player
+};
+
+/// How a peer plays: with which bots, and what it does before it plays a window from the simulated time that it is given, such as wait for the clock.
+struct Manner {
+  std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
+  std::function<void(double)> before_window;
 };
 
 /// The same for all who are given the same scene and keys.
@@ -26,14 +37,21 @@ class SharedGame {
   SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded);
 
   Luggage luggage() const;
+  std::uint32_t bat_count() const { return start_.player_count(); }
+  /// Whether all keys are known before the start; then nobody can play live.
+  bool has_keys() const { return !keys_.empty(); }
+  const Scene& scene() const { return scene_; }
   peer::Division division(peer::PeerNumber peer_count) const;
-  /// Plays peer `number`'s part to the end of `terms`. Throws peer::ProtocolError, and what `mail` throws.
-  PlayedPart play(const Terms& terms, peer::PeerNumber number, peer::Mail& mail) const;
+  /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, and what `mail` throws.
+  PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
 
  private:
   double first_halo(double window) const;
   std::vector<peer::Key> thrusts() const;
-  std::uint64_t hash(std::uint64_t world, double until) const;
+  std::vector<peer::Seat> seats(std::span<const Guest> guests) const;
+  std::vector<InputEvent> keys_with(std::span<const peer::Arrivals> logs) const;
+  std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until) const;
+  PlayedPart end(const Terms& terms, const peer::Peer& peer, std::vector<peer::Key> log, peer::Mail& mail) const;
 
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them

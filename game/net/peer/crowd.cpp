@@ -1,0 +1,72 @@
+// From glimpses to keys.
+#include "game/net/peer/crowd.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/players/random_plan.h"
+
+namespace rink::game {
+
+/// 0 is nothing.
+std::uint8_t input_of(const InputEvent& event) {
+  return static_cast<std::uint8_t>(1 + 2 * static_cast<unsigned>(event.key) + (event.kind == InputKind::key_down ? 1 : 0));
+}
+
+InputEvent event_of(std::uint8_t input, double time, std::uint32_t player) {
+  const unsigned number = (input - 1u) % 8;
+  return {time, player, number % 2 == 1 ? InputKind::key_down : InputKind::key_up, static_cast<Key>(number / 2)};
+}
+
+Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double until) {
+  assert(count == 0 || !kinds.empty());
+  for (std::uint32_t number = first; number < first + count; ++number) {
+    const Bat& bat = scene.bodies.bats[number];
+    Bot bot{.bat = start.bat(number)->index, .controller = BatController(bat.thrust), .player = nullptr, .plan = {}};
+    const std::string& kind = kinds[number % kinds.size()];
+    const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
+    if (kind == "random") bot.plan = random_player_plan(seed, number, until);
+    else bot.player = make_player(kind, rules_of(scene, number), seat, seed);
+    bots_.push_back(std::move(bot));
+  }
+}
+
+std::uint32_t Crowd::pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds) {
+  std::uint32_t wanted = 0;
+  for (const std::string& kind : kinds)
+    if (kind != "random" && !scene.bodies.bats.empty()) wanted = std::max(wanted, make_player(kind, rules_of(scene, 0), {}, 1)->pucks_wanted());
+  return wanted;
+}
+
+void Crowd::act(peer::Peer& peer) {
+  for (const peer::Glimpse& glimpse : peer.glimpses()) {
+    const auto bot = std::find_if(bots_.begin(), bots_.end(), [&](const Bot& one) { return one.bat == glimpse.bat; });
+    if (bot == bots_.end() || glimpse.time <= bot->decided) continue;
+    bot->decided = glimpse.time;
+    decide(peer, *bot, glimpse);
+  }
+}
+
+void Crowd::decide(peer::Peer& peer, Bot& bot, const peer::Glimpse& glimpse) {
+  if (!bot.player) {
+    for (; bot.next < bot.plan.size() && bot.plan[bot.next].time <= glimpse.time; ++bot.next)
+      press(peer, bot, glimpse.owner, bot.plan[bot.next].key, bot.plan[bot.next].kind == InputKind::key_down);
+    return;
+  }
+  seen_.clear();
+  const std::size_t count = std::min<std::size_t>(glimpse.pucks.size(), bot.player->pucks_wanted());
+  for (const peer::Glimpse::Puck& puck : std::span(glimpse.pucks).first(count))
+    seen_.push_back({.id = puck.number, .kind = physics::BodyKind::puck, .position = puck.position, .velocity = puck.velocity, .half_extent = Vector2::Constant(puck.radius)});
+  const KeysHeld wanted = bot.player->decide({.position = glimpse.position, .velocity = glimpse.velocity, .pucks = seen_}, glimpse.time);
+  for (const Key key : all_keys)
+    if (wanted.is_down(key) != bot.controller.keys().is_down(key)) press(peer, bot, glimpse.owner, key, wanted.is_down(key));
+}
+
+void Crowd::press(peer::Peer& peer, Bot& bot, peer::PeerNumber owner, Key key, bool is_down) {
+  bot.controller.press(key, is_down);
+  const InputEvent event{0.0, 0, is_down ? InputKind::key_down : InputKind::key_up, key};
+  peer.press(owner, {bot.bat, bot.controller.thrust(), input_of(event)});
+  ++presses_;
+}
+
+}  // namespace rink::game
