@@ -5,6 +5,13 @@ namespace rink::peer {
 
 namespace {
 
+template <class Message>
+void hear(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
+  Message message;
+  if (!read(bytes, message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
+  peer.hear(from, std::move(message));
+}
+
 /// What `make(to)` makes goes to everybody else, and what they made is heard.
 template <class Make>
 void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make) {
@@ -12,14 +19,30 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
     if (to != peer.number()) mail.send(to, written(make(to)));
   for (PeerNumber from = 0; from < peer_count; ++from) {
     if (from == peer.number()) continue;
-    decltype(make(from)) message;
-    if (!read(mail.receive(from), message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
-    peer.hear(from, std::move(message));
+    hear<decltype(make(from))>(peer, from, mail.receive(from));
   }
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
 }
 
+/// All say the same to all, so this is the step that a collective can carry: nobody goes on before all have spoken.
+void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
+  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
+  for (PeerNumber from = 0; from < peer_count; ++from)
+    if (from != peer.number()) hear<Verdict>(peer, from, verdicts[from]);
+  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+}
+
 }  // namespace
+
+std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes) {
+  std::vector<std::vector<std::uint8_t>> all(peer_count);
+  for (PeerNumber to = 0; to < peer_count; ++to)
+    if (to != own) send(to, bytes);
+  for (PeerNumber from = 0; from < peer_count; ++from)
+    if (from != own) all[from] = receive(from);
+  all[own] = std::move(bytes);
+  return all;
+}
 
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
   const auto exchange = [&](auto&& make) { exchange_with_all(peer, peer_count, mail, make); };
@@ -27,7 +50,7 @@ void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
   for (;;) {
     exchange([&](PeerNumber to) { return peer.claims_for(to); });
     peer.judge();
-    exchange([&](PeerNumber) { return peer.verdict(); });
+    agree(peer, peer_count, mail);
     if (peer.conclude() == Outcome::final) break;
     exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; });
     if (peer.repeats(peer.number())) peer.replay();

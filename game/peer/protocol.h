@@ -18,6 +18,9 @@ class Mail {
   virtual void send(PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
   /// The next message of `from`; waits for it. Throws what its maker chooses if there will be none.
   virtual std::vector<std::uint8_t> receive(PeerNumber from) = 0;
+  /// What each of `peer_count` says to all, by number, when all call it with equally many bytes at the same point of the protocol: by send and receive, unless whoever carries
+  /// the mail has a shorter way.
+  virtual std::vector<std::vector<std::uint8_t>> share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes);
 };
 
 /// Another peer said what cannot be.

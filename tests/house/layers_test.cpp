@@ -19,6 +19,7 @@ struct Layer {
 const std::vector<Layer> layers{
     {"im/matching", {"im/matching", "im"}},
     {"im", {"im", "im/matching"}},
+    {"rti/transport/mpi", {"rti/transport/mpi", "rti/transport"}},
     {"rti/transport", {"rti/transport", "rti", "im"}},
     {"rti", {"rti", "im"}},
     {"game/physics/collision", {"game/physics/collision", "game/physics"}},
@@ -30,7 +31,7 @@ const std::vector<Layer> layers{
     {"game/match", {"game/match", "game/control", "game/players", "game/model", "game/physics"}},
     {"game/players", {"game/players", "game/model", "game/physics"}},
     {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im"}},
-    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi"}},
     {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
     {"game/view", {"game/view", "game/view/render", "game/match", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
@@ -40,7 +41,7 @@ const std::vector<Layer> layers{
     {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
 
-const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h"};
+const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};
 const Names impure_headers{"chrono", "thread", "fstream", "iostream", "filesystem", "ctime", "time.h", "sys/time.h", "future", "random", "spdlog"};
 
 /// The load generator watches processes and instants, so it owns clocks as commands do.

@@ -1,8 +1,7 @@
 // Who is let in, as which number, and who is told what.
-#include <cinttypes>
-#include <cstdio>
 #include <utility>
 
+#include "game/net/peer/difference.h"
 #include "game/net/peer/meeting.h"
 
 namespace rink::game {
@@ -10,21 +9,6 @@ namespace rink::game {
 namespace {
 
 constexpr std::size_t address_max = 253;  // characters, of a host's name
-
-std::string in_hexadecimal(std::uint64_t number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, number);
-  return text;
-}
-
-/// What is different about a newcomer, with both sides; nothing if nothing is.
-std::optional<std::string> difference(const Luggage& theirs, const Luggage& ours) {
-  const auto both = [](std::uint64_t a, std::uint64_t b) { return in_hexadecimal(a) + ", here it is " + in_hexadecimal(b); };
-  if (theirs.scene != ours.scene) return "it has another scene: its fingerprint is " + both(theirs.scene, ours.scene);
-  if (theirs.self_test != ours.self_test) return "it is a build that computes other bits: the hash of its self-test is " + both(theirs.self_test, ours.self_test);
-  if (theirs.keys != ours.keys) return "it has other keys: their hash is " + both(theirs.keys, ours.keys);
-  return std::nullopt;
-}
 
 bool is_reachable(const Place& place) { return !place.address.empty() && place.address.size() <= address_max && place.port != 0; }
 
@@ -78,9 +62,7 @@ bool Meeting::hear_stranger(rti::ConnectionId connection, const Frame& frame) {
 
 /// The first peer gives the numbers, so that those who come at the same time through different peers get different ones.
 void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
-  if (!hello.is_of_this_version())
-    return refuse(connection, RefusalKind::wrong_version,
-                  "it speaks version " + std::to_string(hello.version) + " of the peers' protocol, here it is version " + std::to_string(peer_protocol_version));
+  if (!hello.is_of_this_version()) return refuse(connection, RefusalKind::wrong_version, other_version(hello.version));
   if (!is_in_) return refuse(connection, RefusalKind::other, "the peer that it asked is itself not in yet");
   if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
   if (number_ != 0) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <thread>
 
 #include "game/control/key_log.h"
 #include "game/model/scene_file.h"
@@ -20,6 +21,7 @@
 #include "game/net/interrupt.h"
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/meeting.h"
+#include "game/net/peer/rank_mail.h"
 #include "game/net/peer/shared_game.h"
 
 namespace {
@@ -32,6 +34,7 @@ struct Options {
   std::vector<std::string> players{"chaser"};
   std::uint64_t seed = 0;
   std::uint32_t bats = 0, bots = 0;
+  bool says_peers = false;  ///< --peers was given
   double patience_s = 30.0;
   game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02};
 };
@@ -78,7 +81,9 @@ game::Place place_of(const Options& options) {
   return {address, port};
 }
 
-Json report_of(const game::PlayedPart& part, const game::Meeting& meeting, double playing_s) {
+/// Of a part that was played among those who met, by whichever transport.
+template <class Meeting>
+Json report_of(const game::PlayedPart& part, const Meeting& meeting, double playing_s) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
   const peer::PeerCounters& counters = part.counters;
@@ -154,8 +159,59 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
   }
 }
 
+/// Looks again at once as long as an answer may be a matter of microseconds, then leaves the processor to others, of whom there may be more than processors.
+void wait_for_ranks(std::uint32_t looks) {
+  if (looks < 64) return;
+  if (looks < 256) return std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::microseconds(20));
+}
+
+/// What each rank did, told by the first one.
+void report_ranks(const Json& own, game::RankMail& mail) {
+  const std::string text = own.dump();
+  if (mail.number() != 0) return mail.send(0, {text.begin(), text.end()});
+  Json all = {{"peers", mail.terms().peer_count}, {"time", own["time"]}, {"collectives", mail.collectives()}, {"hash", own["hash"]}, {"ranks", Json::array({own})}};
+  for (peer::PeerNumber from = 1; from < mail.terms().peer_count; ++from) all["ranks"].push_back(Json::parse(mail.receive(from)));
+  std::printf("%s\n", all.dump(2).c_str());
+}
+
+/// The whole part of one rank; a rank that must end early ends all.
+game::ExitStatus share_among_ranks(Options options) {
+  if (!options.join.empty() || !options.listen.empty() || options.says_peers)
+    throw std::invalid_argument("--listen, --join, --peers: with --transport mpi the launcher says how many there are and brings them together (mpirun -np 4): expected none of these");
+  if (options.bots > 0 || !options.record.empty() || options.pace != "free")
+    throw std::invalid_argument("--bots, --record, --pace: ranks of --transport mpi only compute, as fast as they can: expected none of these");
+  const game::SharedGame shared = game_of(options);
+  rti::Ranks ranks;
+  options.terms.peer_count = ranks.count();
+  game::RankMail mail(ranks, options.patience_s, now_s, wait_for_ranks);
+  try {
+    mail.agree(shared.luggage(), options.terms);
+  } catch (const game::Parting& parting) {
+    if (ranks.number() == 0) spdlog::error("{}", parting.what());
+    if (parting.status() != game::ExitStatus::wrong_version && parting.status() != game::ExitStatus::not_admitted) ranks.abort(static_cast<int>(parting.status()));
+    ranks.finish();
+    return parting.status();
+  }
+  try {
+    const double start_s = now_s();
+    const game::PlayedPart part = shared.play(options.terms, mail.number(), mail);
+    report_ranks(report_of(part, mail, now_s() - start_s), mail);
+    mail.flush();
+    ranks.finish();
+    return game::ExitStatus::ok;
+  } catch (const game::Parting& parting) {
+    spdlog::error("rank {}: {}", mail.number(), parting.what());
+    ranks.abort(static_cast<int>(parting.status()));
+  } catch (const peer::ProtocolError& error) {
+    spdlog::error("rank {}: {}", mail.number(), error.what());
+    ranks.abort(static_cast<int>(game::ExitStatus::failed));
+  }
+}
+
 game::ExitStatus run(const Options& options) {
   game::require_writable("--record", options.record);
+  if (options.transport == "mpi") return share_among_ranks(options);
   const game::SharedGame shared = game_of(options);
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
@@ -207,9 +263,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--peers", options.terms.peer_count, "how many there will be; the first peer's to say")->check(CLI::Range(2u, game::peers_max))->excludes(join)->capture_default_str();
   app.add_option("--until", options.terms.until, "simulated time at which to stop [s]; the first peer's to say")->check(game::number_from(1e-6, game::seconds_max))->excludes(join)->capture_default_str();
   app.add_option("--window", options.terms.window, "simulated time from one agreement to the next [s]; the first peer's to say")->check(game::number_from(1e-4, 10.0))->excludes(join)->capture_default_str();
-  app.add_option("--transport", options.transport, "what carries the bytes: tcp, or shm between processes of this machine, where a port is a name; the same for all")->check(CLI::IsMember({"tcp", "shm"}))->capture_default_str();
+  app.add_option("--transport", options.transport, "what carries the bytes: tcp; shm between processes of this machine, where a port is a name; or mpi between the ranks of an mpirun, which all are peers; the same for all")->check(CLI::IsMember({"tcp", "shm", "mpi"}))->capture_default_str();
   app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();
   app.footer("Example, in two terminals:\n  ./rink peer --scene arena --peers 2 --until 5 --listen 127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"
+             "As ranks of MPI (docs/cluster.md):\n  mpirun -np 4 --oversubscribe build/bin/rink-peer --transport mpi --scene arena --until 5\n"
              "Exit status: 0 done, 1 failed or a peer that said what cannot be, 2 bad flag or file, 10 address in use, 11 no peer there, 12 wrong protocol version, 14 not let in,\n"
              "16 a peer is gone, 130 interrupted.");
 }
@@ -223,6 +280,7 @@ int main(int count, char** values) {
   add_options(app, options);
   try {
     app.parse(count, values);
+    options.says_peers = app.count("--peers") > 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(game::ExitStatus::bad_input);
   }
