@@ -23,6 +23,18 @@ void require_match(const ServeOptions& options, const Scene& scene) {
     throw std::runtime_error("a hosted match is played by its players in real time: --keys, --pace and --time-management cannot be given");
 }
 
+/// Throws if cells are given a size that a scheme has none of: a sweep of it would compare equal runs.
+void require_cells(const ServeOptions& options) {
+  if (options.cell_size == 0.0) return;
+  std::string having;
+  for (const std::string& name : im::filter_names()) {
+    if (im::make_filter(name, {})->cell_size() == 0.0) continue;
+    if (name == options.scheme) return;
+    having += (having.empty() ? "" : ", ") + name;
+  }
+  throw std::runtime_error("--cell-size: the scheme " + options.scheme + " has no cells; those that have are " + having);
+}
+
 }  // namespace
 
 void host_by_default(const CLI::App& app, ServeOptions& options) {
@@ -54,6 +66,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
   if (body_count > body_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
+  require_cells(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error("--spread staggers what goes by streams in real time: --pace synchronous and --transport udp can't be given with it");
   if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");

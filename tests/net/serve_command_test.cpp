@@ -71,6 +71,14 @@ TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
   }
 }
 
+TEST(ServeCommand, RefusesASizeOfCellsForASchemeWithoutAny) {
+  for (const char* scheme : {"none", "region", "aura"}) {
+    const Ended ended = serve({"--scene", "match", "--scheme", scheme, "--cell-size", "0.5"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.words, testing::AllOf(HasSubstr(std::string("--cell-size: the scheme ") + scheme + " has no cells"), HasSubstr("grid, hex")));
+  }
+}
+
 TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWhereTheyContradict) {
   const std::filesystem::path folder = testing::TempDir();
   std::ofstream(folder / "own.fom.xml") << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
