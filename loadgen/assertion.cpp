@@ -5,10 +5,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string_view>
+
+#include "loadgen/parameter.h"
 
 #include "loadgen/assertion_syntax.h"
 
@@ -26,26 +29,35 @@ bool set_number(Number& into, const std::string& value) {
 
 /// A key of a cell: sets it from a text, false if that is not of its kind, and writes it.
 struct CellKey {
-  const char* name;
-  bool (*set)(Cell&, const std::string&);
+  std::string name;
+  std::function<bool(Cell&, const std::string&)> set;
 };
 
-constexpr std::array cell_keys{
-    CellKey{"mode", [](Cell& cell, const std::string& value) { return cell.mode = value, true; }},
-    CellKey{"scheme", [](Cell& cell, const std::string& value) { return cell.scheme = value, true; }},
-    CellKey{"policy", [](Cell& cell, const std::string& value) { return cell.policy = value, true; }},
-    CellKey{"clients", [](Cell& cell, const std::string& value) { return set_number(cell.clients, value); }},
-    CellKey{"pucks", [](Cell& cell, const std::string& value) { return set_number(cell.pucks, value); }},
-    CellKey{"bats", [](Cell& cell, const std::string& value) { return set_number(cell.bats, value); }},
-    CellKey{"server_cores", [](Cell& cell, const std::string& value) { return set_number(cell.server_cores, value); }},
-    CellKey{"view_fraction", [](Cell& cell, const std::string& value) { return set_number(cell.parameters.view_fraction, value); }},
-    CellKey{"view_margin", [](Cell& cell, const std::string& value) { return set_number(cell.parameters.view_margin, value); }},
-    CellKey{"sweep_ticks", [](Cell& cell, const std::string& value) { return set_number(cell.parameters.sweep_ticks, value); }},
-    CellKey{"cell_size", [](Cell& cell, const std::string& value) { return set_number(cell.parameters.cell_size, value); }}};
+const std::vector<CellKey>& cell_keys() {
+  static const std::vector<CellKey> keys = [] {
+    std::vector<CellKey> all{
+        {"mode", [](Cell& cell, const std::string& value) { return cell.mode = value, true; }},
+        {"scheme", [](Cell& cell, const std::string& value) { return cell.scheme = value, true; }},
+        {"policy", [](Cell& cell, const std::string& value) { return cell.policy = value, true; }},
+        {"clients", [](Cell& cell, const std::string& value) { return set_number(cell.clients, value); }},
+        {"pucks", [](Cell& cell, const std::string& value) { return set_number(cell.pucks, value); }},
+        {"bats", [](Cell& cell, const std::string& value) { return set_number(cell.bats, value); }},
+        {"server_cores", [](Cell& cell, const std::string& value) { return set_number(cell.server_cores, value); }}};
+    for (const ParameterKind& kind : parameter_kinds())
+      all.push_back({kind.key, [kind](Cell& cell, const std::string& value) {
+                       double number = 0.0;
+                       if (!set_number(number, value) || !kind.is_allowed(number) || (kind.is_whole && number != std::floor(number))) return false;
+                       kind.set(cell.parameters, number);
+                       return true;
+                     }});
+    return all;
+  }();
+  return keys;
+}
 
 const CellKey* key_called(const std::string& name) {
-  const auto key = std::find_if(cell_keys.begin(), cell_keys.end(), [&name](const CellKey& k) { return name == k.name; });
-  return key == cell_keys.end() ? nullptr : &*key;
+  const auto key = std::find_if(cell_keys().begin(), cell_keys().end(), [&name](const CellKey& k) { return name == k.name; });
+  return key == cell_keys().end() ? nullptr : &*key;
 }
 
 /// Which value of a statistic a name ends in.
@@ -121,7 +133,7 @@ void check(const std::string& text, const Node& figure, const std::vector<Cell>&
   for (const auto& [key, value] : figure.selection) {
     const CellKey* known = key_called(key);
     std::string keys;
-    for (const CellKey& k : cell_keys) keys += (keys.empty() ? "" : ", ") + std::string(k.name);
+    for (const CellKey& k : cell_keys()) keys += (keys.empty() ? "" : ", ") + k.name;
     if (!known) throw ExperimentError(where + "no key of a cell is called " + key + "; there are " + keys);
     Cell probe;
     if (!known->set(probe, value)) throw ExperimentError(where + key + " = " + value + " is not a value that " + key + " can have");

@@ -160,7 +160,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
   if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
   add("--policy", cell.policy);
-  add("--rate", decimal(experiment.tick_rate_hz));
+  add("--rate", decimal(cell.parameters.tick_rate_hz));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--clients", std::to_string(cell.clients));

@@ -9,6 +9,7 @@
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment_network.h"
 #include "loadgen/experiment_reader.h"
+#include "loadgen/parameter.h"
 #include "rti/federation_execution.h"
 
 namespace rink::loadgen {
@@ -36,14 +37,10 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
   reader.whole_numbers("bats", result.bats, 0, 1'000'000);
   reader.whole_numbers("seeds", result.seeds, 0, 1'000'000'000);
   reader.whole_numbers("server_cores", result.server_cores, 1, 2);
-  reader.whole_numbers("sweep_ticks", result.sweep_ticks, 0, 1000);
-  reader.numbers("view_fraction", result.view_fractions, "numbers above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; });
-  reader.numbers("view_margin", result.view_margins, "numbers from 0 to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; });
-  reader.numbers("cell_size", result.cell_sizes, "numbers from 0.001 to 1e6, or 0 (the scheme chooses)", [](double v) { return v == 0.0 || (v >= 1e-3 && v <= 1e6); });
+  for (const ParameterKind& kind : parameter_kinds()) reader.numbers(kind.key, result.*kind.values, kind.allowed, kind.is_allowed, kind.is_whole);
 }
 
 void read_setting(ExperimentReader& reader, Experiment& result, const std::filesystem::path& file) {
-  reader.number("tick_rate_hz", result.tick_rate_hz, "a number from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; });
   reader.number("duration_s", result.duration_s, "a number from 0.1 to 3600", [](double v) { return v >= 0.1 && v <= 3600.0; });
   reader.number("warm_up_s", result.warm_up_s, "a number from 0 to 600", [](double v) { return v >= 0.0 && v <= 600.0; });
   reader.number("view_area", result.view_area, "a number from 0 (as view_fraction says) to 1e12, and above 0 only beside a single view_fraction",

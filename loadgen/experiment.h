@@ -25,8 +25,8 @@ enum class Population { fixed, per_client };
 /// `replay`: the server applies the planned keys at their exact times and the bots send them for the record. `live`: only what the bots send counts.
 enum class KeySource { replay, live };
 
-/// `matrix`: every combination. `one_at_a_time`: of clients, pucks and bats at most one differs from the first of its list, so that growth with each can be read
-/// from few runs.
+/// `matrix`: every combination. `one_at_a_time`: of clients, pucks, bats and the parameters at most one differs from the first of its list, so that growth with each,
+/// or what each does, can be read from few runs.
 enum class Design { matrix, one_at_a_time };
 
 /// `tcp`, `udp` beside it, `shared_memory`: a server process and a bots process of this machine. `virtual_time`: both in this process, over a modelled network and under a virtual clock.
@@ -43,6 +43,7 @@ struct Parameters {
   double view_margin = 0.0;       ///< [m] by which the declared region exceeds the view on each side (game::ClientSettings)
   std::uint32_t sweep_ticks = 0;  ///< ticks ahead over which update regions are swept (game::RegionSweep)
   double cell_size = 0.0;         ///< side of a scheme's cells [m]; 0 lets the scheme choose
+  double tick_rate_hz = 30.0;     ///< ticks of the server per second, 1 to 1000: decisions are as old as their inverse
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -66,11 +67,9 @@ struct Experiment {
   std::vector<std::string> policies{"periodic"};
   std::vector<std::uint32_t> clients{10};
   std::vector<std::uint64_t> seeds{1};
-  double tick_rate_hz = 30.0;    ///< 1 to 1000
   double duration_s = 3.0;       ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;        ///< [s] played but not measured; 0 to 600
-  std::vector<double> view_fractions{0.05}, view_margins{0.0}, cell_sizes{0.0};  ///< see Parameters
-  std::vector<std::uint32_t> sweep_ticks{0};
+  std::vector<double> view_fractions{0.05}, view_margins{0.0}, sweep_ticks{0.0}, cell_sizes{0.0}, tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0}, bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
   double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
   TransportKind transport = TransportKind::tcp;

@@ -63,9 +63,9 @@ class ExperimentReader {
     });
   }
 
-  void numbers(const char* key, std::vector<double>& into, const std::string& allowed, const std::function<bool(double)>& is_allowed) {
-    read_list(key, into, allowed, [&is_allowed](const toml::node& node) -> std::optional<double> {
-      const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  void numbers(const char* key, std::vector<double>& into, const std::string& allowed, const std::function<bool(double)>& is_allowed, bool is_whole = false) {
+    read_list(key, into, allowed, [&is_allowed, is_whole](const toml::node& node) -> std::optional<double> {
+      const auto value = node.is_number() && (!is_whole || node.is_integer()) ? node.value<double>() : std::nullopt;
       if (!value || !std::isfinite(*value) || !is_allowed(*value)) return std::nullopt;
       return value;
     });

@@ -1,31 +1,16 @@
 // The matrix that an experiment spans, and how its points are called.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <utility>
 
 #include "loadgen/experiment.h"
-#include "rti/federation_execution.h"
+#include "loadgen/parameter.h"
 
 namespace rink::loadgen {
 namespace {
 
-std::string shortest(double number) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
-}
-
-std::vector<Parameters> parameters_of(const Experiment& experiment) {
-  std::vector<Parameters> all;
-  for (const double fraction : experiment.view_fractions)
-    for (const double margin : experiment.view_margins)
-      for (const std::uint32_t sweep : experiment.sweep_ticks)
-        for (const double cell_size : experiment.cell_sizes) all.push_back({fraction, margin, sweep, cell_size});
-  return all;
-}
-
+/// Judged before what its scheme lacks is taken out of the cell, or one that differs in nothing would come with every value of what it lacks.
 bool is_in_design(const Experiment& experiment, const Cell& cell) {
-  const int moved = (cell.clients != experiment.clients.front()) + (cell.pucks != experiment.pucks.front()) + (cell.bats != experiment.bats.front());
+  const int moved = moved_parameters(experiment, cell.parameters) + (cell.clients != experiment.clients.front()) + (cell.pucks != experiment.pucks.front()) + (cell.bats != experiment.bats.front());
   return experiment.design == Design::matrix || moved <= 1;
 }
 
@@ -42,10 +27,8 @@ std::vector<Difference> differences_of(const Cell& cell) {
   std::vector<Difference> all;
   if (cell.pucks > 0) all.push_back({"pucks", std::to_string(cell.pucks), "", " pucks"});
   if (cell.bats > 0) all.push_back({"bats", std::to_string(cell.bats), "", " bats"});
-  if (own.view_fraction != standard.view_fraction) all.push_back({"view", shortest(own.view_fraction), "view ", ""});
-  if (own.view_margin != standard.view_margin) all.push_back({"margin", shortest(own.view_margin), "margin ", " m"});
-  if (own.sweep_ticks != standard.sweep_ticks) all.push_back({"sweep", std::to_string(own.sweep_ticks), "swept ", " ticks"});
-  if (own.cell_size != standard.cell_size) all.push_back({"cell", shortest(own.cell_size), "cells ", " m"});
+  for (const ParameterKind& kind : parameter_kinds())
+    if (kind.of(own) != kind.of(standard)) all.push_back({kind.short_name, shortest(kind.of(own)), kind.before, kind.after});
   if (cell.server_cores != 1) all.push_back({"cores", std::to_string(cell.server_cores), "", " cores"});
   return all;
 }
@@ -53,8 +36,9 @@ std::vector<Difference> differences_of(const Cell& cell) {
 }  // namespace
 
 Cell without_idle_parameters(Cell cell) {
-  if (const auto filter = im::make_filter(cell.scheme, {}); !filter || filter->cell_size() == 0.0) cell.parameters.cell_size = 0.0;
-  if (cell.scheme == "none") cell.parameters.view_margin = 0.0, cell.parameters.sweep_ticks = 0;
+  const Parameters standard;
+  for (const ParameterKind& kind : parameter_kinds())
+    if (!kind.has(cell.scheme)) kind.set(cell.parameters, kind.of(standard));
   return cell;
 }
 
@@ -75,12 +59,12 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
               games.push_back({mode, {}, {}, clients, seed, {}, pucks, bats, cores});
   std::vector<Cell> cells;
   for (Cell cell : games) {
-    if (!is_in_design(experiment, cell)) continue;
     const auto first_of_game = static_cast<std::ptrdiff_t>(cells.size());
     for (const std::string& policy : experiment.policies)
       for (const Parameters& parameters : parameters_of(experiment))
         for (const std::string& scheme : experiment.schemes) {
           cell.policy = policy, cell.parameters = parameters, cell.scheme = scheme;
+          if (!is_in_design(experiment, cell)) continue;
           const Cell candidate = without_idle_parameters(cell);
           if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end()) cells.push_back(candidate);
         }

@@ -35,7 +35,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("clients", run.cell.clients);
   line.field("entities", run.entities);
   line.field("seed", run.cell.seed);
-  line.field("tick_rate_hz", run.tick_rate_hz);
+  line.field("tick_rate_hz", run.cell.parameters.tick_rate_hz);
   line.field("ticks", run.ticks);
   line.field("ticks_on_time_fraction", run.ticks_on_time_fraction);
   line.field("down_bytes_per_client_per_s", run.down_bytes_per_client_per_s);

@@ -163,7 +163,7 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots, st
   bots.verdict();
   expect_equal("the server's clients", server.number("clients"), record.cell.clients, complaints);
   expect_equal("the bots' clients", bots.number("clients"), record.cell.clients, complaints);
-  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"), record.tick_rate_hz, complaints);
+  expect_equal("the server's tick_rate_hz", server.number("tick_rate_hz"), record.cell.parameters.tick_rate_hz, complaints);
   expect_none("clients lost by the server", server.count("lost_federates"), complaints);
   expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
   expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
@@ -214,7 +214,6 @@ std::optional<double> RunRecord::total_us_per_tick() const {
 RunRecord record_for(const Experiment& experiment, const Cell& cell) {
   RunRecord record;
   record.cell = cell;
-  record.tick_rate_hz = experiment.tick_rate_hz;
   record.scene = experiment.scene;
   record.population = experiment.population == Population::fixed ? "fixed" : "per_client";
   record.keys = experiment.keys == KeySource::replay ? "replay" : "live";

@@ -40,7 +40,6 @@ struct GeneratorHealth {
 struct RunRecord {
   Cell cell;
   std::optional<std::uint64_t> entities;
-  double tick_rate_hz = 0.0;
   std::optional<std::uint64_t> ticks;
   std::optional<double> ticks_on_time_fraction;
   std::optional<double> down_bytes_per_client_per_s, up_bytes_per_client_per_s, wire_bytes_per_client_per_s;

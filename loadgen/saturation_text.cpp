@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "loadgen/parameter.h"
 #include "loadgen/saturate_command.h"
 
 namespace rink::loadgen {
@@ -82,14 +83,16 @@ std::string held_text(const Search& search) {
 }
 
 std::string to_csv(std::span<const Saturation> found) {
-  std::string csv = "mode,scheme,policy,pucks,server_cores,view_fraction,view_margin,sweep_ticks,cell_size,end,held_clients,failed_clients,why,probes";
+  std::string csv = "mode,scheme,policy,pucks,server_cores";
+  for (const ParameterKind& kind : parameter_kinds()) csv += std::string(",") + kind.key;
+  csv += ",end,held_clients,failed_clients,why,probes";
   for (const Column& column : columns) csv += std::string(",") + column.name;
   csv += "\n";
   for (const Saturation& saturation : found) {
     const Cell& cell = saturation.cell;
-    csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.server_cores) + "," +
-           number(cell.parameters.view_fraction) + "," + number(cell.parameters.view_margin) + "," + std::to_string(cell.parameters.sweep_ticks) + "," +
-           number(cell.parameters.cell_size) + "," + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," +
+    csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.server_cores);
+    for (const ParameterKind& kind : parameter_kinds()) csv += "," + number(kind.of(cell.parameters));
+    csv += std::string(",") + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," +
            quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
     for (const Column& column : columns) csv += "," + number(at_edge(saturation, column));
     csv += "\n";
@@ -109,10 +112,11 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
       for (const Column& column : columns) edge[column.name] = or_null(column.of(*saturation.edge));
     }
     const Cell& cell = saturation.cell;
-    searches.push_back({{"mode", cell.mode}, {"scheme", cell.scheme}, {"policy", cell.policy}, {"pucks", cell.pucks}, {"server_cores", cell.server_cores},
-                        {"view_fraction", cell.parameters.view_fraction}, {"view_margin", cell.parameters.view_margin}, {"sweep_ticks", cell.parameters.sweep_ticks},
-                        {"cell_size", cell.parameters.cell_size}, {"end", name_of(saturation.search.end)}, {"held_clients", or_null(saturation.search.held)},
-                        {"failed_clients", or_null(saturation.search.failed)}, {"why", saturation.why}, {"edge", edge}, {"probes", probes}});
+    Json search{{"mode", cell.mode}, {"scheme", cell.scheme}, {"policy", cell.policy}, {"pucks", cell.pucks}, {"server_cores", cell.server_cores}};
+    for (const ParameterKind& kind : parameter_kinds()) search[kind.key] = kind.of(cell.parameters);
+    search.update(Json{{"end", name_of(saturation.search.end)}, {"held_clients", or_null(saturation.search.held)}, {"failed_clients", or_null(saturation.search.failed)},
+                       {"why", saturation.why}, {"edge", edge}, {"probes", probes}});
+    searches.push_back(std::move(search));
   }
   const Json whole_text = {{"service_level", {{"on_time_fraction_min", level.on_time_fraction_min}, {"age_p99_ms_max", level.age_p99_ms_max}}},
                            {"limits", {{"first", limits.first}, {"most", limits.most}, {"resolution", limits.resolution}}}, {"searches", searches}};
@@ -123,11 +127,11 @@ std::string table_of(std::span<const Saturation> found, const ServiceLevel& leve
   std::array<char, 256> line;
   std::snprintf(line.data(), line.size(), "largest number of clients with %g %% of ticks on time and p99 update age below %g ms\n", 100.0 * level.on_time_fraction_min, level.age_p99_ms_max);
   std::string text = line.data();
-  std::snprintf(line.data(), line.size(), "%-7s %-13s %5s %13s %6s %7s %7s %7s %9s  %s\n", "scheme", "policy", "cores", "held", "failed", "physics", "filter", "send", "down kB/s", "why it failed");
+  std::snprintf(line.data(), line.size(), "%-12s %-13s %5s %13s %6s %7s %7s %7s %9s  %s\n", "scheme", "policy", "cores", "held", "failed", "physics", "filter", "send", "down kB/s", "why it failed");
   text += line.data();
   for (const Saturation& saturation : found) {
     const auto part = [&saturation](std::size_t column) { return thousand(at_edge(saturation, columns[column])); };
-    std::snprintf(line.data(), line.size(), "%-7.7s %-13.13s %5u %13s %6s %7s %7s %7s %9s  %s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
+    std::snprintf(line.data(), line.size(), "%-12.12s %-13.13s %5u %13s %6s %7s %7s %7s %9s  %s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
                   saturation.cell.server_cores, held_text(saturation.search).c_str(), whole(saturation.search.failed).c_str(), part(2).c_str(), part(3).c_str(),
                   part(4).c_str(), part(5).c_str(), shortened(saturation.why).c_str());
     text += line.data();

@@ -12,6 +12,8 @@
 #include <tuple>
 #include <utility>
 
+#include "loadgen/parameter.h"
+
 namespace rink::loadgen {
 namespace {
 
@@ -158,13 +160,17 @@ std::string csv_text(const std::string& text) {
   return quoted + '"';
 }
 
-constexpr const char* cell_columns = "mode,scheme,policy,clients,pucks,bats,server_cores,view_fraction,view_margin,sweep_ticks,cell_size";
+std::string cell_columns() {
+  std::string columns = "mode,scheme,policy,clients,pucks,bats,server_cores";
+  for (const ParameterKind& kind : parameter_kinds()) columns += std::string(",") + kind.key;
+  return columns;
+}
 
 std::string cell_values(const Cell& cell) {
-  const Parameters& own = cell.parameters;
-  return csv_text(cell.mode) + "," + csv_text(cell.scheme) + "," + csv_text(cell.policy) + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," +
-         std::to_string(cell.bats) + "," + std::to_string(cell.server_cores) + "," + csv_number(own.view_fraction) + "," + csv_number(own.view_margin) + "," +
-         std::to_string(own.sweep_ticks) + "," + csv_number(own.cell_size);
+  std::string values = csv_text(cell.mode) + "," + csv_text(cell.scheme) + "," + csv_text(cell.policy) + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," +
+         std::to_string(cell.bats) + "," + std::to_string(cell.server_cores);
+  for (const ParameterKind& kind : parameter_kinds()) values += "," + csv_number(kind.of(cell.parameters));
+  return values;
 }
 
 std::pair<std::optional<double>, std::optional<double>> ends_of(const std::optional<Interval>& interval) {
@@ -198,12 +204,13 @@ std::vector<SummaryRow> summarise(std::span<const RunRecord> runs, const Baselin
 }
 
 Agreement agreement_of(std::span<const RunRecord> runs) {
-  std::map<std::string, std::vector<std::string>> hashes_of_game;
+  std::map<std::pair<std::string, double>, std::vector<std::string>> hashes_of_game;  // and of when it ended: not every number of ticks per second ends with the last of the seconds
   for (const RunRecord& run : runs) {
     if (!run.valid || run.keys != "replay") continue;
     const Population population = run.population == "per_client" ? Population::per_client : Population::fixed;
     const std::string game = game_of(run.cell, population);
-    hashes_of_game[game].push_back(run.state_hash);
+    const double rate_hz = run.cell.parameters.tick_rate_hz, end_s = std::floor((run.warm_up_s + run.duration_s) * rate_hz + 1e-9) / rate_hz;
+    hashes_of_game[{game, end_s}].push_back(run.state_hash);
   }
   Agreement result;
   for (const auto& [game, hashes] : hashes_of_game) {
@@ -211,7 +218,7 @@ Agreement agreement_of(std::span<const RunRecord> runs) {
     ++result.games;
     const std::set<std::string> distinct(hashes.begin(), hashes.end());
     if (distinct.size() == 1) continue;
-    std::string difference = game + ":";
+    std::string difference = game.first + ":";
     for (const std::string& hash : distinct) difference += " " + hash;
     result.differing.push_back(difference);
   }
@@ -219,7 +226,7 @@ Agreement agreement_of(std::span<const RunRecord> runs) {
 }
 
 std::string to_csv(std::span<const SummaryRow> rows) {
-  std::string csv = cell_columns + std::string(",valid_runs,invalid_runs,relevance");
+  std::string csv = cell_columns() + std::string(",valid_runs,invalid_runs,relevance");
   for (const Figure& figure : all_figures) {
     for (const char* part : {"_mean", "_sd", "_low", "_high", "_min", "_max"}) csv += std::string(",") + figure.name + part;
   }
@@ -236,7 +243,7 @@ std::string to_csv(std::span<const SummaryRow> rows) {
 }
 
 std::string comparisons_csv(std::span<const SummaryRow> rows, const Baseline& baseline) {
-  std::string csv = cell_columns + std::string(",baseline_scheme,baseline_policy,figure,ratio,ratio_low,ratio_high,pairs,difference\n");
+  std::string csv = cell_columns() + std::string(",baseline_scheme,baseline_policy,figure,ratio,ratio_low,ratio_high,pairs,difference\n");
   for (const SummaryRow& row : rows) {
     for (std::size_t i = 0; i < all_figures.size(); ++i) {
       const std::optional<Ratio>& ratio = row.ratios[i];

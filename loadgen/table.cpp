@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "loadgen/parameter.h"
+
 namespace rink::loadgen {
 namespace {
 
@@ -45,16 +47,43 @@ std::string times_less(const std::optional<Ratio>& ratio) {
   return shown(less.value) + " [" + shown(less.interval->low) + ", " + shown(less.interval->high) + "]" + (less.difference() == Difference::insignificant ? " ~" : "");
 }
 
-constexpr const char* heading =
-    "                            down     times less    recall  displayed    age, ms      on     us per tick            \n"
-    "clients scheme  policy      kB/s     [interval]    deliv.  error, mm   p50    p99   time  phys. filter   send   n\n";
+using Columns = std::vector<const ParameterKind*>;
 
-std::string line_of(const SummaryRow& row, const Baseline& baseline) {
+/// Those in which rows differ.
+Columns differing_parameters(const std::vector<SummaryRow>& rows) {
+  Columns columns;
+  for (const ParameterKind& kind : parameter_kinds())
+    if (std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); })) columns.push_back(&kind);
+  return columns;
+}
+
+std::string heading(const Columns& columns) {
+  std::string own;
+  for (const ParameterKind* kind : columns) own += formatted(" %9s", kind->column);
+  return std::string(31 + own.size(), ' ') + "  down     times less    recall  displayed    age, ms      on     us per tick            \n" +
+         "clients scheme       policy   " + own + "   kB/s     [interval]    deliv.  error, mm   p50    p99   time  phys. filter   send   n\n";
+}
+
+/// The row's values; `-` where its scheme lacks the parameter.
+std::string values_of(const SummaryRow& row, const Columns& columns) {
+  std::string text;
+  for (const ParameterKind* kind : columns) text += formatted(" %9s", kind->has(row.scheme) ? shortest(kind->scale * kind->of(row.parameters)).c_str() : "-");
+  return text;
+}
+
+/// What else of the row is not the default, in words.
+std::string rest_of(SummaryRow row, const Columns& columns) {
+  for (const ParameterKind* kind : columns) kind->set(row.parameters, kind->of(Parameters{}));
+  return variant_of(row);
+}
+
+std::string line_of(const SummaryRow& row, const Baseline& baseline, const Columns& columns) {
   const auto mean = [&row](const char* name, double scale = 1.0) { return shown(row.of(name).mean, scale); };
   const std::string runs = row.invalid_runs == 0 ? std::to_string(row.valid_runs)
                                                  : std::to_string(row.valid_runs) + "/" + std::to_string(row.valid_runs + row.invalid_runs);
   const bool is_baseline = row.scheme == baseline.scheme && row.policy == baseline.policy;
-  return formatted("%7u %-7.7s %-9.9s %6s %18s %7s %9s %6s %6s %6s %6s %6s %6s %3s", row.clients, row.scheme.c_str(), row.policy.c_str(), mean(payload, 1e-3).c_str(),
+  return formatted("%7u %-12.12s %-9.9s", row.clients, row.scheme.c_str(), row.policy.c_str()) + values_of(row, columns) +
+         formatted(" %6s %18s %7s %9s %6s %6s %6s %6s %6s %6s %3s", mean(payload, 1e-3).c_str(),
                    is_baseline ? "baseline" : times_less(row.ratio(payload)).c_str(), fraction_text(row.of("delivered_recall").mean).c_str(), mean(error).c_str(),
                    mean("update_age_ms_p50").c_str(), mean("update_age_ms_p99").c_str(), percent(row.of("ticks_on_time_fraction").mean).c_str(),
                    mean("physics_us_per_tick").c_str(), mean("filter_us_per_tick").c_str(), mean("send_us_per_tick").c_str(), runs.c_str());
@@ -77,9 +106,12 @@ bool has_fewest_bytes(const SummaryRow& row, const std::vector<SummaryRow>& rows
   return rivals > 0;
 }
 
-std::string block_title(const SummaryRow& row, const RunRecord& run) {
-  const std::string view = run.view_area > 0.0 ? formatted("%g m2", run.view_area) : formatted("%g %% of the field", row.parameters.view_fraction * 100.0);
-  return formatted("%.30s at %g Hz, each client sees %s", row.mode.c_str(), run.tick_rate_hz, view.c_str()) +
+/// What all rows have in common; what they differ in has a column.
+std::string block_title(const SummaryRow& row, const RunRecord& run, const Columns& columns) {
+  const auto differs = [&columns](const std::string& key) { return std::any_of(columns.begin(), columns.end(), [&key](const ParameterKind* kind) { return key == kind->key; }); };
+  const std::string view = run.view_area > 0.0 ? formatted(", each client sees %g m2", run.view_area)
+                           : differs("view_fraction") ? "" : formatted(", each client sees %g %% of the field", row.parameters.view_fraction * 100.0);
+  return formatted("%.30s", row.mode.c_str()) + (differs("tick_rate_hz") ? "" : formatted(" at %g Hz", row.parameters.tick_rate_hz)) + view +
          (run.transport == "udp" ? ", datagrams" : run.transport == "shm" ? ", shared memory" : "") + (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
 }
 
@@ -134,14 +166,15 @@ std::string explanation(const std::vector<SummaryRow>& rows, const Baseline& bas
 
 std::string table_of(std::span<const RunRecord> runs, bool is_coloured, const Baseline& baseline) {
   const std::vector<SummaryRow> rows = summarise(runs, baseline);
+  const Columns columns = differing_parameters(rows);
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool is_new_block = i == 0 || rows[i].mode != rows[i - 1].mode;
-    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows[i], runs.front()) + heading;
+    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows[i], runs.front(), columns) + heading(columns);
     if (!is_new_block && !is_same_game(rows[i], rows[i - 1])) text += "\n";
     const bool is_emphasised = is_coloured && has_fewest_bytes(rows[i], rows);
-    text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i], baseline) + (is_emphasised ? "\033[0m" : "") + "\n";
-    if (const std::string variant = variant_of(rows[i]); !variant.empty()) text += "        " + variant + "\n";
+    text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i], baseline, columns) + (is_emphasised ? "\033[0m" : "") + "\n";
+    if (const std::string variant = rest_of(rows[i], columns); !variant.empty()) text += "        " + variant + "\n";
   }
   return text + explanation(rows, baseline) + gains_text(rows, baseline) + agreement_text(runs) + invalid_text(runs);
 }

@@ -91,7 +91,7 @@ class VirtualRun {
 };
 
 game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys) {
-  game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / experiment.tick_rate_hz, .replay = {}};
+  game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
   return settings;
 }
@@ -138,7 +138,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {
-    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = experiment.warm_up_s + experiment.duration_s}, experiment.tick_rate_hz);
+    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = experiment.warm_up_s + experiment.duration_s}, cell.parameters.tick_rate_hz);
     crowd_.collect_evidence(cell.seed);
   }
   if (experiment.network_carries_datagrams) network_.carry_datagrams();
@@ -168,7 +168,8 @@ void VirtualRun::advance_until(std::int64_t until_ns) {
 template <class Condition>
 void VirtualRun::await(const std::string& what, Condition is_met) {
   constexpr std::int64_t steps_max = 64;
-  const std::int64_t step_ns = nanoseconds(1.0 / experiment_.tick_rate_hz), limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns() + (experiment_.network_is_modelled ? second_ns : 0));
+  const std::int64_t step_ns = nanoseconds(1.0 / cell_.parameters.tick_rate_hz);
+  const std::int64_t limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns() + (experiment_.network_is_modelled ? second_ns : 0));
   game::TickCosts uncounted;
   while (!is_met()) {
     heed_interrupt();
@@ -197,7 +198,7 @@ void VirtualRun::start() {
 }
 
 void VirtualRun::play() {
-  const double rate_hz = experiment_.tick_rate_hz, played_s = experiment_.warm_up_s + experiment_.duration_s;
+  const double rate_hz = cell_.parameters.tick_rate_hz, played_s = experiment_.warm_up_s + experiment_.duration_s;
   const auto last = static_cast<std::uint64_t>(std::floor(played_s * rate_hz + 1e-9));
   for (std::uint64_t number = 0; number <= last; ++number) {
     heed_interrupt();
@@ -228,7 +229,7 @@ Json VirtualRun::server_report() const {
               {"policy", cell_.policy},
               {"clients", cell_.clients},
               {"seed", cell_.seed},
-              {"tick_rate_hz", experiment_.tick_rate_hz},
+              {"tick_rate_hz", cell_.parameters.tick_rate_hz},
               {"ticks", ticks_},
               {"ticks_on_time_fraction", nullptr},
               {"physics_us_per_tick", nullptr},

@@ -20,7 +20,7 @@ double median_of(std::span<const double> sorted) {
 
 std::string svg_row(const BoxPlot::Row& row, const Axis& x, double y) {
   if (row.values.empty()) return "";
-  const std::string colour = "s" + std::to_string(row.style.colour % 6);
+  const std::string colour = "s" + std::to_string(row.style.colour % colour_count);
   std::string svg;
   if (row.values.size() >= BoxPlot::least_for_box) {
     const BoxFigures box = box_of(row.values);

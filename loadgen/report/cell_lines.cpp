@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <set>
 
+#include "loadgen/parameter.h"
 #include "loadgen/report/text.h"
 #include "loadgen/statistics.h"
 
@@ -22,22 +24,24 @@ Cell without_clients(Cell cell) {
   return cell;
 }
 
-/// A setting that lines may differ in beside scheme and policy, and how a name says it.
+/// A number that lines may differ in beside scheme and policy, and how a name says it.
 struct Setting {
-  double (*of)(const Cell&);
-  const char* before;
-  const char* after;
+  std::function<double(const Cell&)> of;
+  const char *before, *after;
 };
 
-constexpr Setting settings[] = {
-    {[](const Cell& cell) { return 100.0 * cell.parameters.view_fraction; }, "view ", " %"},
-    {[](const Cell& cell) { return cell.parameters.view_margin; }, "margin ", " m"},
-    {[](const Cell& cell) { return static_cast<double>(cell.parameters.sweep_ticks); }, "sweep ", ""},
-    {[](const Cell& cell) { return cell.parameters.cell_size; }, "cell ", " m"},
-    {[](const Cell& cell) { return static_cast<double>(cell.pucks); }, "", " pucks"},
-    {[](const Cell& cell) { return static_cast<double>(cell.bats); }, "", " bats"},
-    {[](const Cell& cell) { return static_cast<double>(cell.server_cores); }, "", " cores"},
-};
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = [] {
+    std::vector<Setting> list;
+    for (const ParameterKind& kind : parameter_kinds())
+      list.push_back({[kind](const Cell& cell) { return kind.scale * kind.of(cell.parameters); }, kind.before, kind.scale == 100.0 ? " %" : kind.after});
+    list.push_back({[](const Cell& cell) { return static_cast<double>(cell.pucks); }, "", " pucks"});
+    list.push_back({[](const Cell& cell) { return static_cast<double>(cell.bats); }, "", " bats"});
+    list.push_back({[](const Cell& cell) { return static_cast<double>(cell.server_cores); }, "", " cores"});
+    return list;
+  }();
+  return all;
+}
 
 template <class Value>
 bool differs(const std::vector<CellLine>& lines, const std::string& scheme, Value of) {
@@ -52,12 +56,14 @@ bool differs(const std::vector<CellLine>& lines, const std::string& scheme, Valu
 std::string name_among(const std::vector<CellLine>& lines, const Cell& cell) {
   std::string name = cell.scheme;
   if (differs(lines, "", [](const Cell& other) { return other.policy; })) name += ", " + cell.policy;
-  for (const Setting& setting : settings) {
+  for (const Setting& setting : settings()) {
     if (differs(lines, cell.scheme, setting.of)) name += std::string(", ") + setting.before + short_number(setting.of(cell)) + setting.after;
   }
   if (differs(lines, "", [](const Cell& other) { return other.mode; })) name += ", " + cell.mode;
   return name;
 }
+
+}  // namespace
 
 void name_and_style(std::vector<CellLine>& lines) {
   std::vector<std::string> schemes, policies;
@@ -75,8 +81,6 @@ void name_and_style(std::vector<CellLine>& lines) {
   if (schemes.size() > 1) return;
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].style.colour = i;  // of one scheme, colours tell what differs
 }
-
-}  // namespace
 
 MeanInterval mean_interval(const std::vector<double>& values) {
   assert(!values.empty());

@@ -43,6 +43,9 @@ struct CellLine {
 /// Colours follow the scheme, dashes the policy, shapes the line. The runs must outlive what is returned.
 std::vector<CellLine> lines_of(std::span<const RunRecord> runs);
 
+/// Names and styles `lines` as `lines_of` does, whatever their groups differ in.
+void name_and_style(std::vector<CellLine>& lines);
+
 /// The name of the line in `lines` that `cell` belongs to, empty if none.
 std::string line_name(std::span<const CellLine> lines, const Cell& cell);
 

@@ -34,7 +34,7 @@ std::optional<BarPlot::Bar> bar_of(const CellGroup& group) {
 
 Exhibit cost_exhibit(const Findings& findings) {
   Exhibit exhibit;
-  const double budget_us = 1e6 / findings.experiment.tick_rate_hz;
+  const double budget_us = 1e6 / *std::max_element(findings.experiment.tick_rates_hz.begin(), findings.experiment.tick_rates_hz.end());
   PlotTable table{"cost-per-tick", "Wall time of the server's parts per tick: means over replications with their 95 % intervals", cell_columns()};
   for (const char* part : {"physics", "filter", "send"}) {
     for (const char* suffix : {"_us_per_tick", "_low_95", "_high_95"}) table.columns.push_back(std::string(part) + suffix);
@@ -42,7 +42,7 @@ Exhibit cost_exhibit(const Findings& findings) {
   table.columns.push_back("ticks_on_time_fraction");
   std::vector<BarPlot> plots;
   double highest = 0.0;
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     BarPlot plot{line.name, "clients", "us per tick", "Physics, filter and send, stacked, for each client count.", {"physics", "filter", "send"}, {}, {}, budget_us, "budget of a tick"};
     for (const CellGroup& group : line.groups) {
       const auto bar = bar_of(group);

@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "loadgen/parameter.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
@@ -25,6 +26,15 @@ std::vector<std::string> cell_columns() { return {"line", "mode", "scheme", "pol
 
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group) {
   return {line.name, group.cell.mode, group.cell.scheme, group.cell.policy, std::to_string(group.cell.clients), std::to_string(group.runs.size())};
+}
+
+std::vector<CellLine> plotted_lines(const Findings& findings) {
+  constexpr std::size_t lines_max = 12;
+  std::vector<CellLine> lines = findings.lines;
+  if (lines.size() <= lines_max) return lines;
+  std::erase_if(lines, [&findings](const CellLine& line) { return !is_at_first_values(findings.experiment, line.groups.front().cell); });
+  name_and_style(lines);
+  return lines;
 }
 
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean) {

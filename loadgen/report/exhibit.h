@@ -42,6 +42,8 @@ struct Exhibit {
 /// The columns that every table by cell begins with, and their values.
 std::vector<std::string> cell_columns();
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
+/// The lines that plots over clients draw: all, or where a sweep makes too many to tell apart, those with the first value of every parameter.
+std::vector<CellLine> plotted_lines(const Findings& findings);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
 
@@ -51,6 +53,10 @@ Exhibit traffic_exhibit(const Findings& findings);
 Exhibit gains_exhibit(const Findings& findings);
 /// Precision against recall.
 Exhibit relevance_exhibit(const Findings& findings);
+/// Bytes against the recall and against the precision of the filter's decisions, for each line that is drawn; nothing if no run was held against truth.
+void add_bytes_against_relevance(Exhibit& exhibit, const Findings& findings);
+/// What each parameter does that the experiment lists several values of.
+Exhibit sweep_exhibit(const Findings& findings);
 /// Whole curves of latency percentiles.
 Exhibit latency_exhibit(const Findings& findings);
 /// What a tick costs, by part.

@@ -19,7 +19,7 @@ void add_scatter(Exhibit& exhibit, const Findings& findings) {
   LinePlot plot{"Payload against displayed error", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
   PlotTable table{"bytes-against-error", "Payload to each client beside the error of displayed positions: means over replications with their 95 % intervals", cell_columns()};
   table.columns.insert(table.columns.end(), {"displayed_error_mm_rms", "error_low_95", "error_high_95", "bytes_per_client_per_s", "bytes_low_95", "bytes_high_95"});
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto bytes = group.mean(payload), error = group.mean(displayed_rms);

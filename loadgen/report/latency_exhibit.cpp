@@ -96,7 +96,7 @@ LinePlot panel(const Findings& findings, const Latency& kind, std::uint32_t clie
   plot.width = 400.0;
   plot.frame_height = 210.0;
   plot.alternative = kind.meaning;
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     for (const CellGroup& group : line.groups) {
       if (group.cell.clients != clients) continue;
       const Histogram* histogram = histogram_of(findings, group.cell, kind);

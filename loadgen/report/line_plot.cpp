@@ -1,4 +1,4 @@
-// Draws reference curves, error bars, lines and marks, in this order, so that data cover what is said about them.
+// Draws reference curves, error bars, lines, marks and their labels, in this order, so that data cover what is said about them.
 #include "loadgen/report/line_plot.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::string error_bars(const PlotPoint& point, const std::string& colour, const 
 std::string data_of(const LinePlot& plot, const Axis& x, const Axis& y) {
   std::string lines, marks;
   for (const PlotLine& line : plot.lines) {
-    const std::string colour = "s" + std::to_string(line.style.colour % 6);
+    const std::string colour = "s" + std::to_string(line.style.colour % colour_count);
     std::string path;
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const PlotPoint& point = line.points[i];
@@ -64,6 +64,38 @@ std::string data_of(const LinePlot& plot, const Axis& x, const Axis& y) {
     if (path.find('L') != std::string::npos) lines += svg_path(path, "line " + colour + " d" + std::to_string(line.style.dash % 4));
   }
   return lines + marks;
+}
+
+/// What text or mark takes.
+struct Box {
+  double left, top, right, bottom;
+  bool overlaps(const Box& other) const { return left < other.right && other.left < right && top < other.bottom && other.top < bottom; }
+};
+
+/// Aslant of its mark, where no error bar runs, or else beside it, wherever nothing stands yet; left out if all places are taken.
+std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y) {
+  std::vector<Box> taken;
+  const auto for_each_shown = [&](const auto& visit) {
+    for (const PlotLine& line : plot.lines)
+      for (const PlotPoint& point : line.points)
+        if (is_shown(plot, point.x, point.y)) visit(x.clamped_at(point.x), y.clamped_at(point.y), point.label);
+  };
+  for_each_shown([&](double px, double py, const std::string&) { taken.push_back({px - 5.0, py - 5.0, px + 5.0, py + 5.0}); });
+  std::string svg;
+  for_each_shown([&](double px, double py, const std::string& label) {
+    if (label.empty()) return;
+    const double width = 0.85 * text_width(label);
+    const double right = px + 6.0, on_left = px - 6.0 - width;
+    for (const auto& [left, middle] : {std::pair{right, py - 8.0}, {right, py + 9.0}, {on_left, py - 8.0}, {on_left, py + 9.0}, {right + 2.0, py}, {on_left - 2.0, py}}) {
+      const Box box{left, middle - 6.0, left + width, middle + 6.0};
+      const bool is_inside = x.from <= box.left && box.right <= x.to && y.to <= box.top && box.bottom <= y.from;
+      if (!is_inside || std::any_of(taken.begin(), taken.end(), [&box](const Box& other) { return box.overlaps(other); })) continue;
+      taken.push_back(box);
+      svg += svg_text(left, middle + 4.0, "note", label);
+      return;
+    }
+  });
+  return svg;
 }
 
 std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y) {
@@ -103,7 +135,7 @@ std::string to_svg(const LinePlot& plot) {
   std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) + legend;
   svg += svg_y_axis(frame, y, ticks_of(y, 26.0), plot.y_title);
   svg += svg_x_axis(frame, x, plot.x_ticks ? *plot.x_ticks : ticks_of(x, 40.0), plot.x_title);
-  return svg + references_of(plot, x, y) + data_of(plot, x, y) + "</svg>\n";
+  return svg + references_of(plot, x, y) + data_of(plot, x, y) + labels_of(plot, x, y) + "</svg>\n";
 }
 
 }  // namespace rink::loadgen

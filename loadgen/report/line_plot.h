@@ -14,6 +14,7 @@ struct PlotPoint {
   double x = 0.0, y = 0.0;
   std::optional<std::pair<double, double>> y_interval, x_interval;  ///< error bars
   std::string title;                                                ///< what a pointer held over the mark reads
+  std::string label{};                                              ///< written beside the mark where there is room; its title should say the same
 };
 
 struct PlotLine {

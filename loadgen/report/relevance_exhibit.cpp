@@ -24,7 +24,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
   for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9}) plot.references.push_back(equal_score(score));
   PlotTable table{name, title + ": means over replications with their 95 % intervals", cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95", "precision", "precision_low_95", "precision_high_95"});
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto p = group.mean(precision), r = group.mean(recall);
@@ -111,6 +111,7 @@ Exhibit relevance_exhibit(const Findings& findings) {
                   ". Truth is the run's scene and key log simulated again; neither the filter nor a client grades itself.</p>\n<div class=\"plots\">\n";
   add_plot(exhibit, findings, filter_precision, filter_recall, "precision-recall-filter", "The filter's decisions");
   add_plot(exhibit, findings, delivered_precision, delivered_recall, "precision-recall-delivered", "What clients held");
+  add_bytes_against_relevance(exhibit, findings);
   exhibit.html += "</div>\n";
   add_quality_table(exhibit, findings);
   return exhibit;

@@ -27,7 +27,7 @@ bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
   table.columns.insert(table.columns.end(), {"seed", shown.unit});
   for (const std::uint32_t clients : thinned(client_counts(findings.lines), groups_max)) {
     BoxPlot::Group drawn{std::to_string(clients) + (clients == 1 ? " client" : " clients"), {}};
-    for (const CellLine& line : findings.lines) {
+    for (const CellLine& line : plotted_lines(findings)) {
       for (const CellGroup& group : line.groups) {
         const auto values = group.cell.clients == clients ? group.values(shown.of) : std::vector<double>{};
         if (values.empty()) continue;

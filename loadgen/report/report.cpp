@@ -38,10 +38,16 @@ std::string view_text(const Experiment& experiment) {
   return "each client sees " + text + " of the field";
 }
 
+std::string rates_text(const Experiment& experiment) {
+  std::string text;
+  for (const double rate : experiment.tick_rates_hz) text += (text.empty() ? "" : ", ") + short_number(rate);
+  return text;
+}
+
 std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
   const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
   std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
-                     short_number(experiment.tick_rate_hz) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
+                     rates_text(experiment) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
                      view_text(experiment) + "; ";
   if (experiment.transport != TransportKind::virtual_time) text += std::string("processes over ") + to_string(experiment.transport) + "; ";
   else text += "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other; ";
@@ -90,6 +96,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   page.add("traffic", "Traffic", traffic_exhibit(findings));
   page.add("gains", "Bytes against error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
+  page.add("sweeps", "Parameters", sweep_exhibit(findings));
   page.add("latency", "Latency", latency_exhibit(findings));
   page.add("cost", "Cost of a tick", cost_exhibit(findings));
   page.add("replications", "Replications", replication_exhibit(findings));

@@ -47,7 +47,7 @@ std::string svg_path(const std::string& path, const std::string& classes) { retu
 
 std::string svg_marker(const Style& style, double x, double y, const std::string& title) {
   const std::string opening =
-      "<path d=\"M" + coordinate(x) + " " + coordinate(y) + outline(style.shape) + "\" class=\"mark s" + std::to_string(style.colour % 6) + "\"";
+      "<path d=\"M" + coordinate(x) + " " + coordinate(y) + outline(style.shape) + "\" class=\"mark s" + std::to_string(style.colour % colour_count) + "\"";
   if (title.empty()) return opening + "/>\n";
   return opening + "><title>" + escaped(title) + "</title></path>\n";
 }
@@ -70,7 +70,7 @@ std::string svg_legend(const std::vector<LegendEntry>& entries, double left, dou
     const double taken = sample + 6.0 + text_width(entry.name);
     if (x > left && x + taken > left + width) x = left, y += row;
     if (entry.bar_class.empty()) {
-      svg += svg_line(x, y, x + sample, y, "line s" + std::to_string(entry.style.colour % 6) + " d" + std::to_string(entry.style.dash % 4));
+      svg += svg_line(x, y, x + sample, y, "line s" + std::to_string(entry.style.colour % colour_count) + " d" + std::to_string(entry.style.dash % 4));
       svg += svg_marker(entry.style, x + sample / 2.0, y);
     } else {
       svg += "<rect" + attributes({{"x", x + 8.0}, {"y", y - 6.0}, {"width", 12.0}, {"height", 12.0}}) + " class=\"bar " + entry.bar_class + "\"/>\n";

@@ -11,7 +11,9 @@
 
 namespace rink::loadgen {
 
-/// How a line is told from others: the page's colour classes s0 to s5, dash classes d0 to d3, and one of six shapes, so that colour is never alone.
+inline constexpr std::size_t colour_count = 8;
+
+/// How a line is told from others: the page's colour classes s0 to s7, dash classes d0 to d3, and one of six shapes, so that colour is never alone.
 struct Style {
   std::size_t colour = 0, dash = 0, shape = 0;
 };

@@ -16,7 +16,7 @@ std::string extremes(const Findings& findings, FigureOf figure) {
   const auto counts = client_counts(findings.lines);
   if (counts.empty()) return "";
   std::vector<std::pair<double, std::string>> found;
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     for (const CellGroup& group : line.groups) {
       const auto mean = group.cell.clients == counts.back() ? group.mean(figure) : std::nullopt;
       if (mean && mean->mean > 0.0) found.emplace_back(mean->mean, line.name);
@@ -32,7 +32,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf figure, const
   LinePlot plot{title, "clients", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
   PlotTable table{name, title + ": bytes per second and client, mean over replications and its 95 % interval", cell_columns()};
   table.columns.insert(table.columns.end(), {"bytes_per_client_per_s", "low_95", "high_95"});
-  for (const CellLine& line : findings.lines) {
+  for (const CellLine& line : plotted_lines(findings)) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto mean = group.mean(figure);

@@ -102,7 +102,7 @@ TEST(CellLines, NamesSayOnlyWhatDiffersWithinAScheme) {
   const auto lines = lines_of(runs);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0].name, "none");
-  EXPECT_EQ(lines[2].name, "grid, cell 2 m");
+  EXPECT_EQ(lines[2].name, "grid, cells 2 m");
   EXPECT_EQ(lines[1].style.colour, lines[2].style.colour);
   EXPECT_NE(lines[1].style.shape, lines[2].style.shape);
 }

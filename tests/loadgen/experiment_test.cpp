@@ -1,5 +1,6 @@
 // Experiment files: what they mean, the order of their cells, and complaints that name file, line, key and what is allowed.
 #include "loadgen/experiment.h"
+#include "loadgen/parameter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ TEST(ExperimentFile, WhatIsNotSaidHasTheDocumentedDefault) {
   EXPECT_EQ(read.scene, "crowd");
   EXPECT_EQ(read.schemes, defaults.schemes);
   EXPECT_EQ(read.clients, defaults.clients);
-  EXPECT_EQ(read.tick_rate_hz, 30.0);
+  EXPECT_EQ(read.tick_rates_hz, std::vector<double>{30.0});
   EXPECT_EQ(read.view_fractions, std::vector<double>{0.05});
   EXPECT_EQ(read.population, Population::fixed);
   EXPECT_EQ(read.keys, KeySource::replay);
@@ -117,6 +118,35 @@ TEST(ExperimentFile, CellsThatDifferOnlyInWhatTheirSchemeLacksRunOnce) {
   const Cell& last = *std::find_if(cells.rbegin(), cells.rend(), [](const Cell& cell) { return cell.scheme == "region"; });
   EXPECT_EQ(name_of(last), "client-server-region-periodic-10-pucks70-margin0.5-sweep2-seed1");
   EXPECT_EQ(variant_of(last), "70 pucks, margin 0.5 m, swept 2 ticks");
+}
+
+TEST(ExperimentFile, OneAtATimeEachParameterIsSweptAlone) {
+  const auto experiment = parse_experiment(minimal + "schemes=['none','grid','region']\ndesign='one_at_a_time'\ncell_size=[1,2,4]\nview_margin=[0.25,0.5]\ntick_rate_hz=[20,10,60]\nclients=[5,6]", "x.toml", {});
+  const std::vector<Cell> cells = cells_of(experiment);
+  const auto count = [&cells](const std::string& scheme) { return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.scheme == scheme; }); };
+  EXPECT_EQ(count("none"), 1 + 2 + 1) << "the standard, two rates, more clients";
+  EXPECT_EQ(count("grid"), 1 + 2 + 1 + 2 + 1);
+  EXPECT_EQ(count("region"), 1 + 1 + 2 + 1);
+  for (const Cell& cell : cells) {
+    const Cell baseline = baseline_of(cell, "none", "periodic");
+    EXPECT_NE(std::find(cells.begin(), cells.end(), baseline), cells.end()) << name_of(cell);
+    EXPECT_EQ(baseline.parameters.tick_rate_hz, cell.parameters.tick_rate_hz);
+  }
+  EXPECT_EQ(std::count_if(cells.begin(), cells.end(), [](const Cell& cell) { return cell.parameters.tick_rate_hz == 60.0 && name_of(cell).find("-rate60-") != std::string::npos; }), 3);
+}
+
+TEST(ExperimentFile, EveryParameterMayBeAListAndNonsenseInItIsNamedWithItsLine) {
+  for (const ParameterKind& kind : parameter_kinds()) {
+    const std::string key = kind.key, good = kind.is_whole ? "[1, 2]" : "[0.5, 1]";
+    if (key != "tick_rate_hz") {
+      EXPECT_EQ(swept_parameters(parse_experiment(minimal + key + " = " + good, "x.toml", {})).size(), 1u) << key;
+    }
+    for (const char* bad : {"[1, -1]", "[]", "[1, 1]", "'many'", "[1, nan]", "[1, inf]", "[1, [2]]", "true"})
+      EXPECT_THAT(complaint_about(minimal + "\n" + key + " = " + bad), StartsWith("dir/x.toml:4: " + key + " = ")) << bad;
+    if (kind.is_whole) {
+      EXPECT_THAT(complaint_about(minimal + key + " = 1.5"), HasSubstr("whole"));
+    }
+  }
 }
 
 TEST(ExperimentFile, RatiosReferToNoFilterOrElseToTheFirstScheme) {

@@ -40,7 +40,7 @@ class VirtualRunTest : public testing::Test {
     experiment_.schemes = {"none", "region"};
     experiment_.clients = {6};
     experiment_.seeds = {3};
-    experiment_.tick_rate_hz = 20.0;
+    experiment_.tick_rates_hz = {20.0};
     experiment_.warm_up_s = 0.25;
     experiment_.duration_s = 2.0;
   }
@@ -80,7 +80,7 @@ TEST_F(VirtualRunTest, EveryUpdateIsExactlyAsOldAsTheDelay) {
 TEST_F(VirtualRunTest, AKeyTakesEffectAfterTwoDelaysAndTheWaitForTheTickBetween) {
   experiment_.delay_ms = 30.0;
   const Cell cell = first_cell();
-  const double delay_s = 1e-3 * experiment_.delay_ms, rate_hz = experiment_.tick_rate_hz, last_s = experiment_.warm_up_s + experiment_.duration_s;
+  const double delay_s = 1e-3 * experiment_.delay_ms, rate_hz = cell.parameters.tick_rate_hz, last_s = experiment_.warm_up_s + experiment_.duration_s;
   run(cell);
   double sum_s = 0.0, least_s = 1e9, greatest_s = 0.0;
   std::uint64_t answered = 0, due = 0;
