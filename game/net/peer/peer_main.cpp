@@ -83,7 +83,7 @@ game::Place place_of(const Options& options) {
 
 /// Of a part that was played among those who met, by whichever transport.
 template <class Meeting>
-Json report_of(const game::PlayedPart& part, const Meeting& meeting, double playing_s) {
+Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32_t bots, double playing_s) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
   const peer::PeerCounters& counters = part.counters;
@@ -99,7 +99,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, double play
           {"own_events", counters.own_events},
           {"ghost_events", counters.ghost_events},
           {"hand_overs", counters.hand_overs},
-          {"bots", meeting.guests()[meeting.number()].bat_count},
+          {"bots", bots},
           {"key_presses", part.presses},
           {"arrival_bytes", counters.arrival_bytes},
           {"claim_bytes", counters.claim_bytes},
@@ -146,7 +146,7 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     const double playing_s = now_s() - start_s;
     meeting.leave({});
     write_record(options, shared, part, meeting.terms());
-    std::printf("%s\n", report_of(part, meeting, playing_s).dump(2).c_str());
+    std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
     return game::ExitStatus::ok;
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
@@ -195,8 +195,8 @@ game::ExitStatus share_among_ranks(Options options) {
   }
   try {
     const double start_s = now_s();
-    const game::PlayedPart part = shared.play(options.terms, mail.number(), mail);
-    report_ranks(report_of(part, mail, now_s() - start_s), mail);
+    const game::PlayedPart part = shared.play(options.terms, std::vector<game::Guest>(ranks.count()), mail.number(), mail, {.players = options.players, .before_window = {}});
+    report_ranks(report_of(part, mail, 0, now_s() - start_s), mail);
     mail.flush();
     ranks.finish();
     return game::ExitStatus::ok;
