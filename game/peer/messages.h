@@ -103,7 +103,7 @@ bool exchange(Stream& stream, BodyState& s) {
 template <class Stream>
 bool exchange(Stream& stream, Hold& hold) {
   auto& [low, high, axis, pull_time, force, turn_time, age] = hold;
-  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower, age.higher, age.rank) && (axis == 0 || axis == 1);
+  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower, age.higher, age.rank) && stream.truth(age.follows_keys) && (axis == 0 || axis == 1);
 }
 
 template <class Stream>

@@ -34,9 +34,11 @@ struct BasicBodyState {
 using BodyState = BasicBodyState<double>;
 
 /// When a rest contact began, in a form that orders those of different worlds as one world would have made them: events of one instant are processed in order of the
-/// bodies' numbers, but for those that others bring about, which come at once; `lower` and `higher` are therefore the highest pair that the instant has seen so far.
+/// bodies' numbers, but for those that others bring about, which come at once; `lower` and `higher` are therefore the highest pair that the instant has seen so far. What keys of
+/// the instant bring about comes after all that would have happened without them.
 struct HoldAge {
   double time = 0.0;
+  bool follows_keys = false;
   std::uint32_t lower = 0, higher = 0, rank = 0;
   friend auto operator<=>(const HoldAge&, const HoldAge&) = default;
 };

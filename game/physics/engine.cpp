@@ -183,7 +183,11 @@ void BasicEngine<Real>::set_thrust(std::uint32_t bat, const Vector2& acceleratio
 template <class Real>
 std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
   assert(until >= now_ && until < infinity);
+  // Or else a stop between two keys of one instant would let the first one's impacts come before the second one.
+  if (is_played_ && until == now_) return std::nullopt;
+  if (journal_ != nullptr && is_played_) journal_->played = now_;
   predict_pending();
+  is_played_ = false;
   const bool looks_ahead = bodies_.size() >= look_ahead_min && queue_.calendar() != nullptr;
   for (std::uint32_t body = queue_.first(until); body != EventQueue::none; body = queue_.first(until)) {
     if (looks_ahead && queue_.calendar()->current() != looked_ahead_.back() - 1) look_ahead();
@@ -191,6 +195,7 @@ std::optional<BasicGoal<Real>> BasicEngine<Real>::advance(Real until) {
     if (goal_) return std::exchange(goal_, std::nullopt);
   }
   now_ = until;
+  is_played_ = true;
   return std::nullopt;
 }
 

@@ -316,6 +316,7 @@ class BasicEngine {
 
   WorldSpec spec_;
   Real now_ = 0.0;
+  bool is_played_ = false;  // advance() has been to now_: what happens to bodies from outside at this instant takes effect beyond it
   Real tolerance_;  // rounding error of an offset [m]
   Real puck_drag_;
   Real contact_time_;  // s

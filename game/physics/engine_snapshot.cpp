@@ -11,7 +11,7 @@ namespace rink::physics {
 namespace {
 
 constexpr std::uint64_t magic = 0x7061'6e73'6b6e'6972;  // "rinksnap", little endian
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 // Every member of these is bound by name: whoever adds one is told by the compiler to say here whether it is saved.
 
@@ -89,7 +89,7 @@ bool exchange_hold(Stream& stream, Hold& hold) {
 template <class Real>
 template <class Stream>
 bool BasicEngine<Real>::exchange_state(Stream& stream) {
-  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_)) return false;
+  if (!stream.numbers(now_, jam_count_, instant_begin_, events_at_once_) || !stream.truth(is_played_) || !stream.truth(is_hopeless_) || !exchange(stream, counters_)) return false;
   if (!stream.size(bodies_) || !stream.size(holds_) || !stream.size(frozen_)) return false;
   const std::size_t count = bodies_.size();
   builds_.resize(count), laws_.resize(count), rhythms_.resize(count), jams_.resize(count);

@@ -49,6 +49,7 @@ struct BasicJournal {
   std::uint32_t event = 0;
   std::uint64_t stirred = 0;               ///< a digest of what the event at hand does to the rhythm of impacts
   Real time = 0.0;                         ///< of it
+  Real played = -1.0;                      ///< the instant at which advance() began, if it had been there
   std::uint64_t at_once_max = 0;           ///< the most events at one instant
   bool was_hopeless = false;               ///< a joint impact could not be solved
   HoldAge age;
@@ -63,7 +64,7 @@ struct BasicJournal {
   }
   /// The event that is about to be processed.
   void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {
-    const HoldAge next{static_cast<double>(at), lower, higher, 0};
+    const HoldAge next{static_cast<double>(at), at <= played, lower, higher, 0};
     age = next.time == age.time ? std::max(age, next) : next;
     time = at;
   }

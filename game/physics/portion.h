@@ -63,7 +63,7 @@ class Portion {
     double now, instant_begin;
     std::uint64_t events_at_once;
     std::uint32_t jam_count;
-    bool is_hopeless;
+    bool is_hopeless, is_played;
   };
   BasicEngine<double>& engine() const { return *world_.engine_; }
   void write(std::uint32_t body, const BodyState& state);

@@ -51,7 +51,7 @@ class BasicWorld {
   void place(BodyId puck, const Vector2& position, const Vector2& velocity);
 
   /// Processes every event up to and including `until` [s] (not before now()), or up to the first goal, which it returns at the goal's exact time. Where it stops never
-  /// changes the motion.
+  /// changes the motion: an instant that it has been to is over, and what set_thrust(), place(), add() or remove() bring about there happens when it goes on.
   std::optional<BasicGoal<Real>> advance(Real until);
 
   /// From now on keeps a record of every event, for observers; off at first. Never changes the motion.
