@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "game/control/free_place.h"
@@ -47,6 +48,7 @@ Game::Game(const Game& other)
       seats_(other.seats_),
       inputs_(other.inputs_),
       submitted_(other.submitted_),
+      over_(other.over_),
       face_offs_(other.face_offs_),
       score_(other.score_),
       is_over_(other.is_over_) {
@@ -64,10 +66,12 @@ void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector
   spawned_.push_back(entities_.back());
 }
 
-void Game::submit(const InputEvent& event) {
+InputEvent Game::submit(InputEvent event) {
   assert(std::isfinite(event.time) && event.time >= now() && event.player < player_count());
+  if (event.time == over_) event.time = std::nextafter(over_, std::numeric_limits<double>::infinity());
   inputs_.push_back({event, submitted_++});
   std::push_heap(inputs_.begin(), inputs_.end(), is_later);
+  return event;
 }
 
 void Game::advance(double until) {
@@ -116,6 +120,7 @@ void Game::schedule(const FaceOff& due) {
 
 void Game::face_off_until(double instant) {
   while (!face_offs_.empty() && face_offs_.front().time <= instant) {
+    over_ = instant;
     const FaceOff due = face_offs_.front();
     face_offs_.erase(face_offs_.begin());
     face_off(due);
@@ -132,6 +137,7 @@ void Game::face_off(const FaceOff& due) {
 
 void Game::apply_inputs_until(double instant) {
   while (!inputs_.empty() && inputs_.front().event.time <= instant) {
+    over_ = instant;
     const InputEvent event = inputs_.front().event;
     std::pop_heap(inputs_.begin(), inputs_.end(), is_later);
     inputs_.pop_back();

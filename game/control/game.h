@@ -52,8 +52,9 @@ class Game {
 
   /// Queues `event` for its own instant, which must be finite and not before now(); its player must have a bat in the scene (both asserted). Keys for a bat that is not there
   /// at that instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if that is taken, at the nearest free place, and tries again
-  /// every `placement_retry` seconds when there is none.
-  void submit(const InputEvent& event);
+  /// every `placement_retry` seconds when there is none. If inputs or face-offs of now() have been played already, that instant is over, for motion may follow from them: the
+  /// event comes at the next one that a double can tell from it. Answers the event as it was queued, which is what a log must hold.
+  InputEvent submit(InputEvent event);
 
   /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks still move, but goals count no more and scored pucks stay out.
   void advance(double until);
@@ -136,6 +137,7 @@ class Game {
   std::vector<Seat> seats_;
   std::vector<QueuedInput> inputs_;  ///< a heap, earliest first
   std::uint64_t submitted_ = 0;
+  double over_ = -1.0;               ///< the last instant of which more than motion has been played [s]
   std::vector<FaceOff> face_offs_;   ///< ordered by time, then puck
   Score score_;
   bool is_over_ = false;

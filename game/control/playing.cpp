@@ -52,7 +52,7 @@ void Playing::advance(double until) {
     Seat& seat = seats_[turn_ % seats_.size()];
     const double instant = static_cast<double>(turn_ / seats_.size()) * decision_period + seat.phase;
     if (instant > until) break;
-    play_until(instant);
+    if (game_.now() < instant) play_until(instant);  // those who decide at one instant see the same and press together, as they will when the log is played
     decide(seat, instant);
   }
   play_until(until);
@@ -101,8 +101,8 @@ void Playing::press(std::uint32_t player, Key key, bool is_down) {
 }
 
 void Playing::submit(const InputEvent& event) {
-  decided_.insert(std::upper_bound(decided_.begin(), decided_.end(), event, is_earlier), event);
-  game_.submit(event);
+  const InputEvent queued = game_.submit(event);
+  decided_.insert(std::upper_bound(decided_.begin(), decided_.end(), queued, is_earlier), queued);
 }
 
 std::vector<InputEvent> Playing::keys() const {

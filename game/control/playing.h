@@ -25,7 +25,7 @@ class Playing {
   /// Plays up to and including `until` [s].
   void advance(double until);
 
-  /// A key of `player`, whose kind is `hand` (asserted), at now().
+  /// A key of `player`, whose kind is `hand` (asserted), at now(), or right after it if others have pressed theirs then.
   void press(std::uint32_t player, Key key, bool is_down);
 
   const Game& game() const { return game_; }

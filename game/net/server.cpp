@@ -151,8 +151,7 @@ void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double
 }
 
 void Server::submit(const InputEvent& event) {
-  game_.submit(event);
-  record_.push_back(event);
+  record_.push_back(game_.submit(event));
 }
 
 void Server::simulate(double until) {
