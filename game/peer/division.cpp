@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <tuple>
+
+#include "game/peer/cuts.h"
 
 namespace rink::peer {
 
@@ -22,27 +23,6 @@ std::string text_of(const Box& box) {
 void sort_out(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-/// A part of the field for `peer_count` peers from `first` on, and what is in it.
-void cut(const Box& box, std::span<Vector2> places, PeerNumber first, PeerNumber peer_count, std::vector<Zone>& zones) {
-  if (peer_count == 1) return zones.push_back({box, first});
-  const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
-  const double low = is_long ? box.low_x : box.low_y, high = is_long ? box.high_x : box.high_y;
-  const auto along = [is_long](const Vector2& place) { return is_long ? place.x() : place.y(); };
-  std::sort(places.begin(), places.end(), [](const Vector2& a, const Vector2& b) { return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y()); });
-  std::stable_sort(places.begin(), places.end(), [&](const Vector2& a, const Vector2& b) { return along(a) < along(b); });
-  const PeerNumber lower = peer_count / 2;
-  const std::size_t count = places.size() * lower / peer_count;
-  double side = count == 0 ? low : 0.5 * (along(places[count - 1]) + along(places[count]));
-  // All in one place, or too few: by area.
-  if (!(side > low && side < high)) side = low + (high - low) * lower / peer_count;
-  const auto second = static_cast<std::size_t>(std::partition_point(places.begin(), places.end(), [&](const Vector2& place) { return along(place) < side; }) - places.begin());
-  Box below = box, above = box;
-  (is_long ? below.high_x : below.high_y) = side;
-  (is_long ? above.low_x : above.low_y) = side;
-  cut(below, places.first(second), first, lower, zones);
-  cut(above, places.subspan(second), first + lower, peer_count - lower, zones);
 }
 
 }  // namespace
@@ -96,11 +76,7 @@ Division Division::into_strips(const physics::Field& field, PeerNumber peer_coun
   return Division(field, std::move(zones), peer_count);
 }
 
-Division Division::by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count) {
-  std::vector<Zone> zones;
-  cut({0.0, 0.0, field.length, field.width}, places, 0, peer_count, zones);
-  return Division(field, std::move(zones), peer_count);
-}
+Division Division::by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count) { return Cuts::by_count(field, std::move(places), peer_count).division(peer_count); }
 
 PeerNumber Division::owner_of(const Vector2& place) const {
   for (PeerNumber peer = 0; peer < peer_count_; ++peer)

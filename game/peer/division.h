@@ -29,7 +29,7 @@ class Division {
   Division(const physics::Field& field, std::vector<Zone> zones, PeerNumber peer_count);
   /// Strips of equal width along the longer side, one for each peer.
   static Division into_strips(const physics::Field& field, PeerNumber peer_count);
-  /// Cut in two across the longer side, again and again, each time so that the peers of both parts get equally many of `places`: the same for all who know these.
+  /// By Cuts::by_count.
   static Division by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count);
 
   PeerNumber peer_count() const { return peer_count_; }

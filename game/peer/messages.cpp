@@ -1,6 +1,8 @@
 // Messages to bytes and back, through the stream that snapshots of worlds go through.
 #include "game/peer/messages.h"
 
+#include "game/peer/mirror.h"
+#include "game/peer/session.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::peer {
@@ -46,6 +48,10 @@ std::size_t size_of() {
 std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Claims message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, PartChange& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }

@@ -88,6 +88,8 @@ struct Verdict {
   double halo = 0.0;                ///< m: of the next window, or, if it does not accept, with which it will repeat this one
   std::uint64_t at_once_max = 0;    ///< the most events at one instant
   bool was_hopeless = false;        ///< simultaneous impacts that have no solution
+  std::uint64_t events = 0;         ///< with a body of the sender's own, in this run
+  bool leaves = false;              ///< the sender wishes to hand over all that it owns when the window is final
 };
 
 template <class Stream>
@@ -174,7 +176,8 @@ bool exchange(Stream& stream, Claims& message) {
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  return stream.number(message.window) && stream.truth(message.accepts) && stream.numbers(message.halo, message.at_once_max) && stream.truth(message.was_hopeless);
+  return stream.number(message.window) && stream.truth(message.accepts) && stream.numbers(message.halo, message.at_once_max) && stream.truth(message.was_hopeless) &&
+         stream.number(message.events) && stream.truth(message.leaves);
 }
 
 /// With a checksum at the end.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace rink::peer {
 
@@ -38,6 +39,7 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       halo_min_(0.25 * halo),
       halos_(division.peer_count(), halo),
       is_repeating_(division.peer_count(), false),
+      is_present_(division.peer_count(), true),
       roles_(body_count, away),
       homes_(body_count, 0),
       end_homes_(body_count, 0),
@@ -61,6 +63,7 @@ void Peer::consider(std::uint32_t body, const BodyState& state) {
 }
 
 void Peer::begin(double until) {
+  if (!entered_holds_.empty()) set_holds(std::exchange(entered_holds_, {}));
   portion_.begin_window();
   std::vector<std::uint32_t> candidates = std::move(owned_);
   candidates.insert(candidates.end(), ghosts_.begin(), ghosts_.end());
@@ -99,7 +102,7 @@ std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
 bool Peer::is_margin_fit() const {
   double halo = 0.0;
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
-    if (peer != number_) halo = std::max(halo, halos_[peer]);
+    if (peer != number_ && is_present_[peer]) halo = std::max(halo, halos_[peer]);
   const double needed = halo + 1.001 * extent_max_;
   return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
 }
@@ -108,7 +111,7 @@ bool Peer::is_margin_fit() const {
 void Peer::choose_margin() {
   double halo = 0.0;
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
-    if (peer != number_) halo = std::max(halo, halos_[peer]);
+    if (peer != number_ && is_present_[peer]) halo = std::max(halo, halos_[peer]);
   margin_ = margin_room * (halo + 1.001 * extent_max_);
   interiors_.clear();
   for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
@@ -136,7 +139,11 @@ Outcome Peer::conclude() {
   const auto is_whole = [](double halo) { return halo == infinity; };
   std::uint64_t at_once = 0;
   bool is_hopeless = false, is_final = true;
-  for (const Verdict& verdict : verdicts_) at_once += verdict.at_once_max, is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+  for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
+    if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = halos_[peer]};
+    const Verdict& verdict = verdicts_[peer];
+    at_once += verdict.at_once_max, is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+  }
   // The engine's last resorts against endless series at one instant count what happens in the whole field.
   const bool needs_whole = (at_once >= physics::events_at_once_local || is_hopeless) && !std::all_of(halos_.begin(), halos_.end(), is_whole);
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
@@ -245,6 +252,7 @@ void Peer::correct_doubtful() {
 void Peer::commit(double until) {
   glimpses_ = glimpses_for(number_);
   note_log();
+  if (keeps_changes_) note_changed();
   correct_doubtful();
   std::vector<Hold> holds = portion_.holds();
   const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
@@ -291,6 +299,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     if (owners_[body] == number_) {
       roles_[body] = own;
       owned_.push_back(body);
+      if (keeps_changes_ && !was_own) changed_.push_back(body);
       if (portion_.world().is_held({body})) groups_.push_back({body, reaches[k]});
       homes_[body] = 0;
       for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
@@ -298,6 +307,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
       continue;
     }
     counters_.hand_overs += was_own;
+    if (keeps_changes_ && was_own) left_.push_back(body);
     roles_[body] = is_in_region(number_, reaches[k]) ? ghost : away;
     if (roles_[body] == ghost) ghosts_.push_back(body);
     else portion_.drop(body);

@@ -9,6 +9,7 @@
 
 #include "game/peer/division.h"
 #include "game/peer/messages.h"
+#include "game/peer/mirror.h"
 #include "game/physics/portion.h"
 
 namespace rink::peer {
@@ -47,8 +48,23 @@ class Peer {
 
   /// At the start, before the first window, for every body of the whole: takes what is its own and what is in its halo.
   void consider(std::uint32_t body, const BodyState& state);
+  /// Instead of that, to begin at a later window's start: its number and when it starts [s], then parts of the whole, among them all that is its own, in its halo, or in rest contact.
+  void enter(std::uint32_t window, double start);
+  void take(const Arrivals& part);
   /// After that; the first window will end at `until` [s].
   void begin(double until);
+
+  /// Between windows: who plays on. Nothing is expected of the others, who have no zones.
+  void set_present(PeerNumber peer, bool is_present) { is_present_[peer] = is_present; }
+  bool is_present(PeerNumber peer) const { return is_present_[peer]; }
+  /// With the next verdicts.
+  void wish_to_leave() { wishes_to_leave_ = true; }
+  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these. The same at all peers.
+  void divide(const Division& division);
+  /// From now on `change` tells what each commit changed; a first one, after `begin`, tells all.
+  void keep_changes() { keeps_changes_ = true; }
+  /// Of the own part, since the window before, or `is_whole`; its step is left out.
+  PartChange change(bool is_whole) const;
 
   /// Of a bat that it owns, before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
@@ -57,6 +73,8 @@ class Peer {
   void seat(const Seat& seat) { seats_.push_back(seat); }
   /// What the own players may see now, since the last commit.
   const std::vector<Glimpse>& glimpses() const { return glimpses_; }
+  /// Of all own bats that `player` plays, whether it is due or not.
+  std::vector<Glimpse> glimpses_of_all(PeerNumber player) const;
   /// After a commit and before the claims of the next window: an own player's key, which goes to `owner`, the one that the newest glimpse of the bat names. It is stamped there
   /// with the end of that window.
   void press(PeerNumber owner, const Press& press) { presses_[owner].push_back(press); }
@@ -70,6 +88,7 @@ class Peer {
   void hear(PeerNumber from, const Verdict& verdict) { verdicts_[from] = verdict; }
   Outcome conclude();
   const Verdict& verdict() const { return verdicts_[number_]; }
+  const Verdict& verdict_of(PeerNumber peer) const { return verdicts_[peer]; }
   bool repeats(PeerNumber peer) const { return is_repeating_[peer]; }
 
   Arrivals arrivals_for_repeat(PeerNumber peer);
@@ -89,6 +108,7 @@ class Peer {
   const PeerCounters& counters() const { return counters_; }
   /// Why another peer's message cannot be true, naming it; empty if all could.
   const std::string& accusation() const { return accusation_; }
+  PeerNumber accused() const { return accused_; }
 
  private:
   enum Role : std::uint8_t { away, ghost, own };
@@ -154,6 +174,9 @@ class Peer {
   void take_presses();
   void note_log();
 
+  // peer_parts.cpp
+  void note_changed();
+
   physics::Portion portion_;
   Division division_;
   PeerNumber number_;
@@ -164,13 +187,16 @@ class Peer {
   double margin_ = -1.0;            // a place deeper in a zone is at home: no other peer's halo reaches a body there
   std::vector<Box> interiors_;      // of the own zones
   std::vector<double> halos_;       // by peer
-  std::vector<bool> is_repeating_;
+  std::vector<bool> is_repeating_, is_present_;
+  bool wishes_to_leave_ = false, keeps_changes_ = false;
+  std::vector<std::uint32_t> changed_, left_;      // in the last commit: own bodies whose states changed, or that came; and those that went
   std::vector<std::uint8_t> roles_, homes_, end_homes_, is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or if it has companions
   std::vector<PeerNumber> owners_;  // of those that are there, in this window
   std::vector<std::uint32_t> owned_, ghosts_;
   std::vector<Reach> groups_;       // own bodies with companions: what they all take up at the window's start
   std::vector<Reach> outskirts_;    // own bodies that are not at home at the window's end: what they and their companions take up then
   std::vector<std::vector<std::uint32_t>> known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
+  std::vector<Hold> entered_holds_; // of parts that were taken, until the first window begins
   std::vector<Key> keys_, due_;     // still to come, of own bats; in this window
   std::vector<Seat> seats_;
   std::vector<Glimpse> glimpses_;
@@ -189,6 +215,7 @@ class Peer {
   std::uint32_t attempts_ = 0;
   PeerCounters counters_;
   std::string accusation_;
+  PeerNumber accused_ = 0;
 };
 
 }  // namespace rink::peer

@@ -143,7 +143,7 @@ Claims Peer::claims_for(PeerNumber peer) {
 }
 
 bool Peer::accuse(PeerNumber peer, const std::string& of) {
-  if (accusation_.empty()) accusation_ = "peer " + std::to_string(peer) + " " + of;
+  if (accusation_.empty()) accusation_ = "peer " + std::to_string(peer) + " " + of, accused_ = peer;
   return false;
 }
 
@@ -152,7 +152,7 @@ bool Peer::hears_truth() {
   std::vector<std::uint32_t> counts(claims_.size(), 0);
   for (const std::uint32_t body : ghosts_) ++counts[owners_[body]];
   for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
-    if (peer == number_) continue;
+    if (peer == number_ || !is_present_[peer]) continue;
     if (claims_[peer].window != window_) return accuse(peer, "claims window " + std::to_string(claims_[peer].window) + " instead of " + std::to_string(window_));
     if (claims_[peer].known_count != counts[peer])
       return accuse(peer, "counts " + std::to_string(claims_[peer].known_count) + " of its bodies here, there are " + std::to_string(counts[peer]));
@@ -170,7 +170,7 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
-  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless};
+  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = usual_halo_;

@@ -36,6 +36,13 @@ std::vector<Glimpse> Peer::glimpses_for(PeerNumber peer) const {
   return glimpses;
 }
 
+std::vector<Glimpse> Peer::glimpses_of_all(PeerNumber player) const {
+  std::vector<Glimpse> glimpses;
+  for (const Seat& seat : seats_)
+    if (seat.peer == player && roles_[seat.bat] == own) glimpses.push_back(glimpse_of(seat));
+  return glimpses;
+}
+
 void Peer::take_glimpses(PeerNumber from) {
   for (Glimpse& glimpse : arrivals_[from].glimpses) {
     const auto is_it = [&](const Seat& seat) { return seat.bat == glimpse.bat && seat.peer == number_; };

@@ -24,14 +24,6 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
 }
 
-/// All say the same to all, so this is the step that a collective can carry: nobody goes on before all have spoken.
-void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
-  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
-  for (PeerNumber from = 0; from < peer_count; ++from)
-    if (from != peer.number()) hear<Verdict>(peer, from, verdicts[from]);
-  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
-}
-
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes) {
@@ -44,19 +36,15 @@ std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber pe
   return all;
 }
 
+void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
+  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
+  for (PeerNumber from = 0; from < peer_count; ++from)
+    if (from != peer.number()) hear<Verdict>(peer, from, verdicts[from]);
+  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+}
+
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
-  const auto exchange = [&](auto&& make) { exchange_with_all(peer, peer_count, mail, make); };
-  peer.play();
-  for (;;) {
-    exchange([&](PeerNumber to) { return peer.claims_for(to); });
-    peer.judge();
-    agree(peer, peer_count, mail);
-    if (peer.conclude() == Outcome::final) break;
-    exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; });
-    if (peer.repeats(peer.number())) peer.replay();
-  }
-  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); });
-  peer.commit(next);
+  play_steps(peer, next, [&](auto&& make) { exchange_with_all(peer, peer_count, mail, make); }, [&] { agree(peer, peer_count, mail); }, [] {});
 }
 
 Arrivals own_bodies(const Peer& peer) {

@@ -15,18 +15,60 @@ namespace rink::peer {
 class Mail {
  public:
   virtual ~Mail() = default;
+  /// To one who is gone: does nothing.
   virtual void send(PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
-  /// The next message of `from`; waits for it. Throws what its maker chooses if there will be none.
+  /// The next message of `from`; waits for it. Throws what its maker chooses if there will be none; PeerGone, of anybody who is gone and has not been parted with, where peers
+  /// can do without each other.
   virtual std::vector<std::uint8_t> receive(PeerNumber from) = 0;
   /// What each of `peer_count` says to all, by number, when all call it with equally many bytes at the same point of the protocol: by send and receive, unless whoever carries
   /// the mail has a shorter way.
   virtual std::vector<std::vector<std::uint8_t>> share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes);
+  /// Nothing more will be said to `peer`, nor heard of it. `is_lost`: and it shall notice, if it is still there; otherwise it leaves by itself.
+  virtual void part(PeerNumber /*peer*/, bool /*is_lost*/) {}
+};
+
+/// There is no more mail from `peer`.
+class PeerGone : public std::runtime_error {
+ public:
+  PeerGone(PeerNumber peer, bool has_finished, const std::string& what) : std::runtime_error(what), peer_(peer), has_finished_(has_finished) {}
+  PeerNumber peer() const { return peer_; }
+  /// It has said that it had no more to say.
+  bool has_finished() const { return has_finished_; }
+
+ private:
+  PeerNumber peer_;
+  bool has_finished_;
+};
+
+/// Those who are left must not go on: others may, or nobody can.
+class Halt : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Another peer said what cannot be.
 class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// The steps of a window: `exchange(make)` lets everybody hear what everybody makes for each other, `agree` everybody's verdict, `when_final` is called before the arrivals are made.
+template <class Exchange, class Agree, class WhenFinal>
+void play_steps(Peer& peer, double next, Exchange&& exchange, Agree&& agree, WhenFinal&& when_final) {
+  peer.play();
+  for (;;) {
+    exchange([&](PeerNumber to) { return peer.claims_for(to); });
+    peer.judge();
+    agree();
+    if (peer.conclude() == Outcome::final) break;
+    exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; });
+    if (peer.repeats(peer.number())) peer.replay();
+  }
+  when_final();
+  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); });
+  peer.commit(next);
+}
+
+/// Everybody's verdict to everybody, who all are there: nobody goes on before all have spoken, so a collective can carry it (Mail::share).
+void agree(Peer& peer, PeerNumber peer_count, Mail& mail);
 
 /// Plays the window that `begin` or the last call has prepared, and prepares the next, which ends at `next` [s]. All peers must do the same. Throws ProtocolError.
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next);

@@ -38,19 +38,19 @@ std::uint32_t Crowd::pucks_wanted(const Scene& scene, const std::vector<std::str
   return wanted;
 }
 
-void Crowd::act(peer::Peer& peer) {
-  for (const peer::Glimpse& glimpse : peer.glimpses()) {
+void Crowd::act(peer::Session& session) {
+  for (const peer::Glimpse& glimpse : session.peer().glimpses()) {
     const auto bot = std::find_if(bots_.begin(), bots_.end(), [&](const Bot& one) { return one.bat == glimpse.bat; });
     if (bot == bots_.end() || glimpse.time <= bot->decided) continue;
     bot->decided = glimpse.time;
-    decide(peer, *bot, glimpse);
+    decide(session, *bot, glimpse);
   }
 }
 
-void Crowd::decide(peer::Peer& peer, Bot& bot, const peer::Glimpse& glimpse) {
+void Crowd::decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse) {
   if (!bot.player) {
     for (; bot.next < bot.plan.size() && bot.plan[bot.next].time <= glimpse.time; ++bot.next)
-      press(peer, bot, glimpse.owner, bot.plan[bot.next].key, bot.plan[bot.next].kind == InputKind::key_down);
+      press(session, bot, glimpse, bot.plan[bot.next].key, bot.plan[bot.next].kind == InputKind::key_down);
     return;
   }
   seen_.clear();
@@ -59,13 +59,13 @@ void Crowd::decide(peer::Peer& peer, Bot& bot, const peer::Glimpse& glimpse) {
     seen_.push_back({.id = puck.number, .kind = physics::BodyKind::puck, .position = puck.position, .velocity = puck.velocity, .half_extent = Vector2::Constant(puck.radius)});
   const KeysHeld wanted = bot.player->decide({.position = glimpse.position, .velocity = glimpse.velocity, .pucks = seen_}, glimpse.time);
   for (const Key key : all_keys)
-    if (wanted.is_down(key) != bot.controller.keys().is_down(key)) press(peer, bot, glimpse.owner, key, wanted.is_down(key));
+    if (wanted.is_down(key) != bot.controller.keys().is_down(key)) press(session, bot, glimpse, key, wanted.is_down(key));
 }
 
-void Crowd::press(peer::Peer& peer, Bot& bot, peer::PeerNumber owner, Key key, bool is_down) {
+void Crowd::press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key, bool is_down) {
   bot.controller.press(key, is_down);
   const InputEvent event{0.0, 0, is_down ? InputKind::key_down : InputKind::key_up, key};
-  peer.press(owner, {bot.bat, bot.controller.thrust(), input_of(event)});
+  session.press(glimpse, {bot.bat, bot.controller.thrust(), input_of(event)});
   ++presses_;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/peer/peer.h"
+#include "game/peer/session.h"
 #include "game/players/player.h"
 
 namespace rink::game {
@@ -25,8 +25,8 @@ class Crowd {
   /// How many pucks the one of these kinds wants to see who wants to see most.
   static std::uint32_t pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds);
 
-  /// After a commit of `peer`: whoever is shown something decides, and the keys are on their way.
-  void act(peer::Peer& peer);
+  /// After a commit of `session`'s peer: whoever is shown something decides, and the keys are on their way.
+  void act(peer::Session& session);
   std::uint64_t presses() const { return presses_; }
 
  private:
@@ -38,8 +38,8 @@ class Crowd {
     std::size_t next = 0;
     double decided = -1.0;           ///< the last instant [s]
   };
-  void press(peer::Peer& peer, Bot& bot, peer::PeerNumber owner, Key key, bool is_down);
-  void decide(peer::Peer& peer, Bot& bot, const peer::Glimpse& glimpse);
+  void press(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse, Key key, bool is_down);
+  void decide(peer::Session& session, Bot& bot, const peer::Glimpse& glimpse);
 
   std::vector<Bot> bots_;
   std::vector<SeenEntity> seen_;

@@ -16,8 +16,8 @@ inline constexpr std::uint32_t peer_protocol_version = 2;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
-enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell };
-inline constexpr FrameKind frame_kind_max = FrameKind::farewell;
+enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell, sign };
+inline constexpr FrameKind frame_kind_max = FrameKind::sign;
 
 /// Where a peer can be reached by all others.
 struct Place {
@@ -43,6 +43,7 @@ struct Luggage {
 struct Terms {
   std::uint32_t peer_count = 2;
   double until = 0.0, window = 0.0;  ///< s
+  bool is_mirrored = true;           ///< whether each peer's part is kept by another, too
   bool fit() const { return peer_count >= 2 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
 };
 
@@ -120,10 +121,11 @@ bool exchange(Stream& stream, Hello& hello) {
 
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
-  if (!stream.numbers(welcome.session, welcome.terms.peer_count, welcome.terms.until, welcome.terms.window, welcome.first_bat) || !stream.size(welcome.others)) return false;
+  Terms& terms = welcome.terms;
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, welcome.first_bat) && stream.truth(terms.is_mirrored);
+  if (!is_headed || !stream.size(welcome.others)) return false;
   for (Guest& guest : welcome.others)
     if (!exchange(stream, guest)) return false;
-  const Terms& terms = welcome.terms;
   return terms.fit() && !welcome.others.empty() && welcome.others.size() < terms.peer_count;
 }
 

@@ -15,6 +15,10 @@ constexpr double stranger_patience_s = 5.0;
 /// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of that waits in our own.
 constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
 constexpr double wait_s_max = 0.05;
+/// Who is interrupted has so long to hand over what it owns.
+constexpr double leaving_s_max = 3.0;
+/// Who waits says that it is there, so often in the time that others have patience.
+constexpr double signs_per_patience = 4.0;
 
 }  // namespace
 
@@ -24,7 +28,19 @@ void Meeting::note(ExitStatus status, const std::string& what) {
   if (!trouble_) trouble_.emplace(status, what);
 }
 
+/// The play goes on without it, if it can.
+void Meeting::lose(Link& link, ExitStatus status, const std::string& what) {
+  if (!may_lose_) return note(status, what);
+  if (link.loss.empty()) link.loss = what;
+}
+
+void Meeting::show_signs() {
+  for (auto& [connection, link] : links_)
+    if (link.role == Role::peer && link.is_open && !link.is_closed && now_s_() > link.said_s + settings_.patience_s / signs_per_patience) say(connection, FrameKind::sign, {});
+}
+
 void Meeting::attend(double wait_s) {
+  if (may_lose_) show_signs();
   push_all();
   const bool is_sending = std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
   sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? 0.001 : wait_s))), *this);
@@ -32,7 +48,8 @@ void Meeting::attend(double wait_s) {
   for (const auto& [connection, link] : links_)
     if (link.role == Role::stranger && now_s_() > link.since_s + stranger_patience_s) idle.push_back(connection);
   for (const rti::ConnectionId connection : idle) dismiss(connection);
-  if (is_interrupted) throw Parting(ExitStatus::interrupted, "interrupted");
+  if (is_interrupted && !interrupted_s_) interrupted_s_ = now_s_();
+  if (is_interrupted && (!may_lose_ || now_s_() > *interrupted_s_ + leaving_s_max)) throw Parting(ExitStatus::interrupted, "interrupted");
   if (trouble_) throw Parting(*trouble_);
 }
 
@@ -60,6 +77,8 @@ void Meeting::dial(const Guest& guest, Role role, peer::PeerNumber number) {
 
 void Meeting::say(rti::ConnectionId connection, FrameKind kind, const std::vector<std::uint8_t>& content) {
   Link& link = links_.at(connection);
+  if (link.is_closed) return;
+  link.said_s = now_s_();
   link.outbox.push_back(framed(kind, content));
   if (link.role == Role::peer) bytes_sent_ += link.outbox.back().size();
   push(connection, link);
@@ -97,6 +116,7 @@ void Meeting::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
   const auto entry = links_.find(connection);
   if (entry == links_.end() || entry->second.is_closed) return;
   entry->second.reader.add(bytes);
+  entry->second.heard_s = now_s_();
   read_frames(connection);
 }
 
@@ -109,8 +129,8 @@ void Meeting::read_frames(rti::ConnectionId connection) {
     const bool is_good = frame && (role == Role::stranger ? hear_stranger(connection, *frame) : role == Role::asked ? hear_answer(connection, *frame) : hear_peer(link, *frame));
     if (is_good) continue;
     if (role == Role::stranger) return dismiss(connection);
-    note(role == Role::peer ? ExitStatus::failed : ExitStatus::no_server,
-         role == Role::peer ? name_of(link) + " sent what is no message" : "what answers at " + link.guest.place.text() + " is no peer of this version");
+    if (role == Role::peer) lose(link, ExitStatus::failed, name_of(link) + " sent what is no message");
+    else note(ExitStatus::no_server, "what answers at " + link.guest.place.text() + " is no peer of this version");
     link.is_closed = true;
     sockets_.get().close(connection);
   }
@@ -123,7 +143,7 @@ void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason, co
   const std::string why = std::string(rti::to_string(reason)) + (detail.empty() ? "" : ", " + detail);
   link.is_closed = true;
   link.outbox.clear();
-  if (link.role == Role::peer && !link.is_done) note(ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
+  if (link.role == Role::peer && !link.is_done && !link.is_parted) lose(link, ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
   if (link.role == Role::asked) note(ExitStatus::no_server, "no peer answers at " + link.guest.place.text() + ": " + why);
   if (link.role != Role::peer) links_.erase(entry);
 }
@@ -133,11 +153,12 @@ bool Meeting::hear_peer(Link& link, const Frame& frame) {
     link.inbox.push_back(frame.content);
     return !link.is_done;
   }
+  if (frame.kind == FrameKind::sign) return frame.content.empty();
   const auto farewell = frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
   if (!farewell) return false;
   link.is_done = true;
-  if (farewell->kind == FarewellKind::interrupted) note(ExitStatus::interrupted, name_of(link) + " was interrupted, so all end");
-  if (farewell->kind == FarewellKind::trouble) note(ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
+  if (farewell->kind == FarewellKind::interrupted) lose(link, ExitStatus::interrupted, name_of(link) + " was interrupted" + (may_lose_ ? "" : ", so all end"));
+  if (farewell->kind == FarewellKind::trouble) lose(link, ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
   return true;
 }
 
@@ -145,18 +166,31 @@ void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) { say(*
 
 std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
   Link& link = link_of(from);
-  for (const double give_up_s = now_s_() + settings_.patience_s; link.inbox.empty();) {
+  for (const double begin_s = now_s_();;) {
+    for (const auto& [connection, other] : links_)
+      if (!other.loss.empty() && !other.is_parted) throw peer::PeerGone(other.number, false, other.loss);
+    if (!link.inbox.empty()) break;
+    if (link.is_done && may_lose_) throw peer::PeerGone(from, true, name_of(link) + " has left");
     if (link.is_done) throw Parting(ExitStatus::connection_lost, name_of(link) + " left before the end");
-    if (now_s_() > give_up_s) throw Parting(ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s");
-    attend(wait_s_max);
+    if (now_s_() > std::max(begin_s, link.heard_s) + settings_.patience_s)
+      lose(link, ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s");
+    if (link.loss.empty()) attend(wait_s_max);
   }
   std::vector<std::uint8_t> first = std::move(link.inbox.front());
   link.inbox.pop_front();
   return first;
 }
 
+void Meeting::part(peer::PeerNumber peer, bool is_lost) {
+  Link& link = link_of(peer);
+  link.is_parted = true;
+  if (!is_lost || link.is_closed) return;
+  link.is_closed = true;
+  sockets_.get().close(*peers_[peer]);
+}
+
 void Meeting::rest_until(double time_s) {
-  for (double left_s = time_s - now_s_(); left_s > 0.0; left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
+  for (double left_s = time_s - now_s_(); left_s > 0.0 && !is_interrupted; left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
 }
 
 void Meeting::leave(const Farewell& farewell) {

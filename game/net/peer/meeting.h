@@ -35,8 +35,9 @@ struct MeetingSettings {
   double patience_s = 30.0;   ///< with one whose answer is due
 };
 
-/// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. A stranger who says what a peer would not
-/// loses the connection, and nothing else happens.
+/// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. From `begin` on, where parts are mirrored,
+/// it is peer::PeerGone instead of the first three, and of a user's interrupt only what takes too long. A stranger who says what a peer would not loses the connection, and
+/// nothing else happens.
 class Meeting final : public peer::Mail, private rti::TransportListener {
  public:
   Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)());
@@ -46,7 +47,9 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void join(const Place& any);
   /// Until all are connected.
   void gather();
-  /// Does nothing but listen until `time_s` of the clock.
+  /// The play begins: from here on peers may be lost.
+  void begin() { may_lose_ = terms_.is_mirrored; }
+  /// Does nothing but listen until `time_s` of the clock, or a user's interrupt.
   void rest_until(double time_s);
   /// Says goodbye to all, and sees that all that was sent is on its way.
   void leave(const Farewell& farewell);
@@ -61,6 +64,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
 
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
+  void part(peer::PeerNumber peer, bool is_lost) override;
 
  private:
   enum class Role : std::uint8_t { stranger, asked, peer };
@@ -69,7 +73,9 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
     bool is_open = false, is_closed = false, is_done = false;
     peer::PeerNumber number = 0;
     Guest guest;
-    double since_s = 0.0;
+    bool is_parted = false;
+    std::string loss;               ///< why it is gone, if it is
+    double since_s = 0.0, heard_s = 0.0, said_s = 0.0;
     FrameReader reader;
     std::optional<Greeting> early;  ///< came before we knew our own number
     std::deque<std::vector<std::uint8_t>> inbox;
@@ -97,6 +103,8 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void enter(rti::ConnectionId connection, const Welcome& welcome);
   void become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Guest& guest);
   void note(ExitStatus status, const std::string& what);
+  void lose(Link& link, ExitStatus status, const std::string& what);
+  void show_signs();
   bool are_all_here() const;
   Link& link_of(peer::PeerNumber number) { return links_.at(*peers_[number]); }
   static std::string name_of(const Link& link) { return "peer " + std::to_string(link.number) + " (" + link.guest.place.text() + ")"; }
@@ -106,7 +114,8 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   double (*now_s_)();
   Terms terms_;
   peer::PeerNumber number_ = 0;
-  bool is_in_ = false;
+  bool is_in_ = false, may_lose_ = false;
+  std::optional<double> interrupted_s_;
   int redirections_ = 0;
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number

@@ -86,10 +86,10 @@ template <class Meeting>
 Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32_t bots, double playing_s) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
-  const peer::PeerCounters& counters = part.counters;
-  return {{"peer", meeting.number()},
+  const peer::PeerCounters& counters = part.counters.peer;
+  Json report{{"peer", meeting.number()},
           {"peers", meeting.terms().peer_count},
-          {"time", meeting.terms().until},
+          {"time", part.time},
           {"windows", counters.windows},
           {"repeats", counters.repeats},
           {"owned", part.owned},
@@ -109,7 +109,12 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"strangers_dismissed", meeting.dismissed()},
           {"wall_s", playing_s},
           {"cpu_s", processor_s()},
-          {"hash", hash}};
+          {"lost", part.lost},
+          {"recoveries", part.counters.recoveries},
+          {"mirror_bytes", part.counters.mirror_bytes},
+          {"recovery_bytes", part.counters.recovery_bytes}};
+  if (!part.has_left) report["hash"] = hash;
+  return report;
 }
 
 void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part, const game::Terms& terms) {
@@ -140,18 +145,24 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     std::printf("playing\n");
     std::fflush(stdout);
     const double start_s = now_s();
-    game::Manner manner{.players = options.players, .before_window = {}};
+    meeting.begin();
+    game::Manner manner{.players = options.players, .before_window = {}, .wants_to_leave = [] { return game::is_interrupted != 0; }, .tell = [](const std::string& what) { spdlog::warn("{}", what); }};
     if (options.pace == "realtime") manner.before_window = [&](double time) { meeting.rest_until(start_s + time); };
     const game::PlayedPart part = shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
     const double playing_s = now_s() - start_s;
     meeting.leave({});
-    write_record(options, shared, part, meeting.terms());
+    if (part.has_left) spdlog::warn("interrupted at {} s: all that this peer had is with others", part.time);
+    else write_record(options, shared, part, meeting.terms());
     std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
-    return game::ExitStatus::ok;
+    return part.has_left ? game::ExitStatus::interrupted : game::ExitStatus::ok;
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
     meeting.leave({parting.status() == game::ExitStatus::interrupted ? game::FarewellKind::interrupted : game::FarewellKind::trouble, parting.what()});
     return parting.status();
+  } catch (const peer::Halt& halt) {
+    spdlog::error("{}", halt.what());
+    meeting.leave({game::FarewellKind::trouble, halt.what()});
+    return game::ExitStatus::connection_lost;
   } catch (const peer::ProtocolError& error) {
     spdlog::error("{}", error.what());
     meeting.leave({game::FarewellKind::trouble, error.what()});
@@ -184,6 +195,7 @@ game::ExitStatus share_among_ranks(Options options) {
   const game::SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
+  options.terms.is_mirrored = false;  // MPI ends all of them if one is lost
   game::RankMail mail(ranks, options.patience_s, now_s, wait_for_ranks);
   try {
     mail.agree(shared.luggage(), options.terms);
@@ -195,7 +207,9 @@ game::ExitStatus share_among_ranks(Options options) {
   }
   try {
     const double start_s = now_s();
-    const game::PlayedPart part = shared.play(options.terms, std::vector<game::Guest>(ranks.count()), mail.number(), mail, {.players = options.players, .before_window = {}});
+    game::Manner manner;
+    manner.players = options.players;
+    const game::PlayedPart part = shared.play(options.terms, std::vector<game::Guest>(ranks.count()), mail.number(), mail, manner);
     report_ranks(report_of(part, mail, 0, now_s() - start_s), mail);
     mail.flush();
     ranks.finish();
@@ -263,6 +277,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--peers", options.terms.peer_count, "how many there will be; the first peer's to say")->check(CLI::Range(2u, game::peers_max))->excludes(join)->capture_default_str();
   app.add_option("--until", options.terms.until, "simulated time at which to stop [s]; the first peer's to say")->check(game::number_from(1e-6, game::seconds_max))->excludes(join)->capture_default_str();
   app.add_option("--window", options.terms.window, "simulated time from one agreement to the next [s]; the first peer's to say")->check(game::number_from(1e-4, 10.0))->excludes(join)->capture_default_str();
+  app.add_flag("!--unmirrored", options.terms.is_mirrored, "no peer keeps another's part: who is lost or interrupted ends all; the first peer's to say")->excludes(join);
   app.add_option("--transport", options.transport, "what carries the bytes: tcp; shm between processes of this machine, where a port is a name; or mpi between the ranks of an mpirun, which all are peers; the same for all")->check(CLI::IsMember({"tcp", "shm", "mpi"}))->capture_default_str();
   app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();
   app.footer("Example, in two terminals:\n  ./rink peer --scene arena --peers 2 --until 5 --listen 127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"

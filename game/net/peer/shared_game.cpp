@@ -43,11 +43,11 @@ Luggage SharedGame::luggage() const {
 }
 
 /// Posts cost nothing, so they do not count.
-peer::Division SharedGame::division(peer::PeerNumber peer_count) const {
+peer::Cuts SharedGame::cuts(peer::PeerNumber peer_count) const {
   std::vector<Vector2> places;
   for (const Entity& entity : start_.entities())
     if (entity.kind != physics::BodyKind::post) places.push_back(start_.position(entity.id));
-  return peer::Division::by_count(scene_.world.field, std::move(places), peer_count);
+  return peer::Cuts::by_count(scene_.world.field, std::move(places), peer_count);
 }
 
 /// Two large bodies side by side, and what the fastest of them fly in a window; peers widen or narrow it as they go.
@@ -106,45 +106,49 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> lo
 }
 
 PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
-  const physics::World& whole = start_.world();
-  peer::Peer peer(whole.spec(), division(terms.peer_count), number, whole.body_count(), first_halo(terms.window));
-  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer.consider(body, physics::Portion::state_in(whole, body));
-  for (const peer::Key& key : thrusts()) peer.press_first(key);
-  for (const peer::Seat& seat : seats(guests)) peer.seat(seat);
-  Crowd crowd(scene_, start_, manner.players, scene_.seed, guests[number].first_bat, guests[number].bat_count, terms.until);
-  const auto window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window)));
+  peer::SessionSettings settings{.number = number, .peer_count = terms.peer_count, .halo = first_halo(terms.window), .is_mirrored = terms.is_mirrored, .end_of = {}};
+  const auto count = settings.window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window)));
   // The last window ends at `until`, the one that is prepared then, and never played, one window later.
-  const auto end_of = [&](std::uint64_t k) { return k == window_count ? terms.until : k > window_count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
-  std::vector<peer::Key> log;
-  peer.begin(end_of(1));
-  for (std::uint64_t k = 1; k <= window_count; ++k) {
-    if (manner.before_window) manner.before_window(peer.now());
-    peer::play_window(peer, terms.peer_count, mail, end_of(k + 1));
-    log.insert(log.end(), peer.log().begin(), peer.log().end());
-    crowd.act(peer);
+  settings.end_of = [terms, count](std::uint64_t k) { return k == count ? terms.until : k > count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
+  settings.keys = thrusts();
+  settings.seats = seats(guests);
+  peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
+  Crowd crowd(scene_, start_, manner.players, scene_.seed, guests[number].first_bat, guests[number].bat_count, terms.until);
+  std::size_t told = 0;
+  const auto tell_losses = [&] {
+    if (told == session.lost().size()) return;
+    told = session.lost().size();
+    const std::size_t left = session.members().size();
+    if (manner.tell) manner.tell(session.last_loss() + (left == 1 ? ": this peer goes on alone" : ": " + std::to_string(left) + " peers go on") + " from " + std::to_string(session.peer().now()) + " s");
+  };
+  while (!session.is_over()) {
+    if (manner.before_window) manner.before_window(session.peer().now());
+    if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
+    session.advance();
+    tell_losses();
+    crowd.act(session);
   }
-  PlayedPart part = end(terms, peer, std::move(log), mail);
+  PlayedPart part;
+  part.has_left = session.has_left();
+  if (!session.has_left()) end(terms, session, part);
+  tell_losses();
+  part.counters = session.counters();
+  part.lost = session.lost();
+  part.time = session.peer().now();
+  part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(), part.halo = session.peer().halo();
   part.presses = crowd.presses();
   return part;
 }
 
-/// Everybody tells everybody what it has, and what its players did.
-PlayedPart SharedGame::end(const Terms& terms, const peer::Peer& peer, std::vector<peer::Key> log, peer::Mail& mail) const {
-  PlayedPart part{.counters = peer.counters(), .owned = peer.owned().size(), .ghosts = peer.ghosts().size(), .halo = peer.halo(), .keys = {}};
-  std::vector<peer::Arrivals> parts(terms.peer_count);
-  parts[peer.number()] = peer::own_bodies(peer);
-  parts[peer.number()].keys = std::move(log);
-  const std::vector<std::uint8_t> bytes = written(parts[peer.number()]);
-  for (peer::PeerNumber to = 0; to < terms.peer_count; ++to)
-    if (to != peer.number()) mail.send(to, bytes), part.result_bytes += bytes.size();
-  for (peer::PeerNumber from = 0; from < terms.peer_count; ++from)
-    if (from != peer.number() && !read(mail.receive(from), parts[from])) throw peer::ProtocolError("peer " + std::to_string(from) + " sent what is no list of bodies");
+/// Everybody has told everybody what it has, and what its players did.
+void SharedGame::end(const Terms& terms, peer::Session& session, PlayedPart& part) const {
+  const std::vector<peer::Arrivals> parts = session.end();
   const physics::World& whole = start_.world();
   const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
+  part.result_bytes = measured(parts[session.peer().number()]) * (session.members().size() - 1);
   part.keys = keys_with(parts);
   part.hash = hash(*world, part.keys, terms.until);
-  return part;
 }
 
 }  // namespace rink::game

@@ -9,13 +9,16 @@
 
 #include "game/control/game.h"
 #include "game/net/peer/greetings.h"
-#include "game/peer/protocol.h"
+#include "game/peer/session.h"
 
 namespace rink::game {
 
 /// What one peer had of it.
 struct PlayedPart {
-  peer::PeerCounters counters;
+  peer::SessionCounters counters;
+  bool has_left = false;                ///< before the end, in good order: then there is no hash
+  std::vector<peer::PeerNumber> lost;   ///< who was
+  double time = 0.0;                    ///< how far it came [s]
   std::uint64_t owned = 0, ghosts = 0;  ///< at the end
   double halo = 0.0;                    ///< m, likewise
   std::uint64_t result_bytes = 0;       ///< sent, with the own bodies' last states
@@ -28,6 +31,8 @@ struct PlayedPart {
 struct Manner {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
   std::function<void(double)> before_window;
+  std::function<bool()> wants_to_leave;
+  std::function<void(const std::string&)> tell;  ///< the user, of losses
 };
 
 /// The same for all who are given the same scene and keys.
@@ -41,8 +46,8 @@ class SharedGame {
   /// Whether all keys are known before the start; then nobody can play live.
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
-  peer::Division division(peer::PeerNumber peer_count) const;
-  /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, and what `mail` throws.
+  peer::Cuts cuts(peer::PeerNumber peer_count) const;
+  /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, peer::Halt, and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
 
  private:
@@ -51,7 +56,7 @@ class SharedGame {
   std::vector<peer::Seat> seats(std::span<const Guest> guests) const;
   std::vector<InputEvent> keys_with(std::span<const peer::Arrivals> logs) const;
   std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until) const;
-  PlayedPart end(const Terms& terms, const peer::Peer& peer, std::vector<peer::Key> log, peer::Mail& mail) const;
+  void end(const Terms& terms, peer::Session& session, PlayedPart& part) const;
 
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them

@@ -1,0 +1,95 @@
+// Trees of cuts.
+#include "game/peer/cuts.h"
+
+#include <algorithm>
+#include <cassert>
+#include <tuple>
+#include <utility>
+
+namespace rink::peer {
+
+namespace {
+
+std::pair<Box, Box> parts_of(const Box& box, bool is_along_x, double side) {
+  Box below = box, above = box;
+  (is_along_x ? below.high_x : below.high_y) = side;
+  (is_along_x ? above.low_x : above.low_y) = side;
+  return {below, above};
+}
+
+}  // namespace
+
+Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count) {
+  Cuts cuts(field);
+  cuts.root_ = cuts.cut({0.0, 0.0, field.length, field.width}, places, 0, peer_count);
+  return cuts;
+}
+
+/// A part of the field for `peer_count` peers from `first` on, and what is in it.
+std::size_t Cuts::cut(const Box& box, std::span<Vector2> places, PeerNumber first, PeerNumber peer_count) {
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({.low = node, .peer = first});
+  if (peer_count == 1) return node;
+  const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
+  const double low = is_long ? box.low_x : box.low_y, high = is_long ? box.high_x : box.high_y;
+  const auto along = [is_long](const Vector2& place) { return is_long ? place.x() : place.y(); };
+  std::sort(places.begin(), places.end(), [](const Vector2& a, const Vector2& b) { return std::tuple(a.x(), a.y()) < std::tuple(b.x(), b.y()); });
+  std::stable_sort(places.begin(), places.end(), [&](const Vector2& a, const Vector2& b) { return along(a) < along(b); });
+  const PeerNumber lower = peer_count / 2;
+  const std::size_t count = places.size() * lower / peer_count;
+  double side = count == 0 ? low : 0.5 * (along(places[count - 1]) + along(places[count]));
+  // All in one place, or too few: by area.
+  if (!(side > low && side < high)) side = low + (high - low) * lower / peer_count;
+  const auto second = static_cast<std::size_t>(std::partition_point(places.begin(), places.end(), [&](const Vector2& place) { return along(place) < side; }) - places.begin());
+  const auto [below, above] = parts_of(box, is_long, side);
+  const std::size_t below_node = cut(below, places.first(second), first, lower), above_node = cut(above, places.subspan(second), first + lower, peer_count - lower);
+  nodes_[node] = {.low = below_node, .high = above_node, .is_along_x = is_long, .side = side, .peer = 0};
+  return node;
+}
+
+void Cuts::lay_out(std::size_t node, const Box& box, std::vector<Zone>& zones) const {
+  const Node& here = nodes_[node];
+  if (is_leaf(node)) return zones.push_back({box, here.peer});
+  const auto [below, above] = parts_of(box, here.is_along_x, here.side);
+  lay_out(here.low, below, zones);
+  lay_out(here.high, above, zones);
+}
+
+Division Cuts::division(PeerNumber peer_count) const {
+  std::vector<Zone> zones;
+  lay_out(root_, {0.0, 0.0, field_.length, field_.width}, zones);
+  return Division(field_, std::move(zones), peer_count);
+}
+
+std::vector<PeerNumber> Cuts::peers_below(std::size_t node) const {
+  if (is_leaf(node)) return {nodes_[node].peer};
+  std::vector<PeerNumber> peers = peers_below(nodes_[node].low);
+  const std::vector<PeerNumber> others = peers_below(nodes_[node].high);
+  peers.insert(peers.end(), others.begin(), others.end());
+  return peers;
+}
+
+bool Cuts::has(PeerNumber peer) const {
+  const std::vector<PeerNumber> all = peers_below(root_);
+  return std::find(all.begin(), all.end(), peer) != all.end();
+}
+
+Cuts Cuts::without(PeerNumber peer) const {
+  assert(has(peer) && !is_leaf(root_));
+  Cuts cuts = *this;
+  const auto is_it = [&](std::size_t node) { return is_leaf(node) && nodes_[node].peer == peer; };
+  const auto bypass = [&](std::size_t& link) {
+    if (is_leaf(link)) return;
+    if (is_it(nodes_[link].low)) link = nodes_[link].high;
+    else if (is_it(nodes_[link].high)) link = nodes_[link].low;
+  };
+  for (Node& node : cuts.nodes_) {
+    if (&cuts.nodes_[node.low] == &node) continue;
+    bypass(node.low);
+    bypass(node.high);
+  }
+  bypass(cuts.root_);
+  return cuts;
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,68 @@
+// A peer's own part as a whole: taken over from others, told to whom mirrors it, and given other borders.
+#include <algorithm>
+#include <cassert>
+
+#include "game/peer/peer.h"
+
+namespace rink::peer {
+
+void Peer::enter(std::uint32_t window, double start) {
+  window_ = window, start_ = start;
+  portion_.advance(start);
+}
+
+/// `begin` sorts out whose is whose.
+void Peer::take(const Arrivals& part) {
+  for (const auto& [body, state] : part.bodies) {
+    if (body >= portion_.body_count() || portion_.is_there(body)) continue;
+    extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
+    portion_.put(body, state);
+    ghosts_.push_back(body);
+  }
+  entered_holds_.insert(entered_holds_.end(), part.holds.begin(), part.holds.end());
+  keys_.insert(keys_.end(), part.keys.begin(), part.keys.end());
+}
+
+/// All own bodies are looked at anew.
+void Peer::divide(const Division& division) {
+  assert(division.peer_count() == division_.peer_count());
+  division_ = division;
+  margin_ = -1.0;
+  outskirts_.clear();
+  for (const std::uint32_t body : owned_) {
+    end_homes_[body] = 0;
+    outskirts_.push_back({body, reach_of(body)});
+  }
+}
+
+/// Before the journal is forgotten.
+void Peer::note_changed() {
+  changed_.clear(), left_.clear();
+  const auto note = [&](std::uint32_t body) {
+    if (roles_[body] == own) changed_.push_back(body);
+  };
+  for (const auto& kept : portion_.journal().states) note(kept.body);
+  for (const auto& kept : portion_.journal().flights) note(kept.body);
+}
+
+PartChange Peer::change(bool is_whole) const {
+  PartChange change{.step = 0, .time = portion_.world().now(), .is_whole = is_whole, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+  std::vector<std::uint32_t> bodies = is_whole ? owned_ : changed_;
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  for (const std::uint32_t body : bodies)
+    if (roles_[body] == own) change.bodies.push_back({body, portion_.state(body)});
+  if (!is_whole) {
+    change.gone = left_;
+    change.log = log_;
+  }
+  const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
+  for (const Hold& hold : portion_.holds())
+    if (is_own(hold.low) || is_own(hold.high)) change.holds.push_back(hold);
+  for (const std::vector<Key>* keys : {&due_, &keys_})
+    for (const Key& key : *keys)
+      if (key.input != 0 && roles_[key.bat] == own) change.keys.push_back(key);
+  return change;
+}
+
+}  // namespace rink::peer

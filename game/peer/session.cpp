@@ -1,0 +1,193 @@
+// Windows in steps, and the parts of others kept meanwhile.
+#include "game/peer/session.h"
+
+#include <cassert>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace rink::peer {
+
+Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail)
+    : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{0, 0, std::vector<PeerNumber>(settings_.peer_count), cuts}, before_(now_),
+      division_(cuts.division(settings_.peer_count)), mirrors_(settings_.peer_count), losses_(settings_.peer_count) {
+  std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
+  before_ = now_;
+  peer_.emplace(whole.spec(), division_, settings_.number, whole.body_count(), settings_.halo);
+  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer_->consider(body, physics::Portion::state_in(whole, body));
+  for (const Key& key : settings_.keys) peer_->press_first(key);
+  for (const Seat& seat : settings_.seats) peer_->seat(seat);
+  if (settings_.is_mirrored) peer_->keep_changes(), keep_first_parts();
+  peer_->begin(settings_.end_of(1));
+}
+
+/// Everybody knows how it begins.
+void Session::keep_first_parts() {
+  for (const PeerNumber peer : now_.members) {
+    if (peer != settings_.number && mirror_of(peer, now_) != settings_.number) continue;
+    PartChange part{.step = 0, .time = 0.0, .is_whole = true, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+    for (std::uint32_t body = 0; body < whole_.body_count(); ++body)
+      if (division_.owner_of(whole_.position({body})) == peer) part.bodies.push_back({body, physics::Portion::state_in(whole_, body)});
+    mirrors_[peer].add(std::move(part));
+  }
+}
+
+/// The next one in the ring of those who have zones.
+std::optional<PeerNumber> Session::mirror_of(PeerNumber peer, const State& state) const {
+  std::optional<PeerNumber> first;
+  for (const PeerNumber other : state.members) {
+    if (other == peer || !state.cuts.has(other)) continue;
+    if (other > peer) return other;
+    if (!first) first = other;
+  }
+  return first;
+}
+
+template <class Message>
+Message Session::heard(PeerNumber from) {
+  for (;;) {
+    const std::vector<std::uint8_t> bytes = mail_.receive(from);
+    Message message;
+    if (read(bytes, message)) return message;
+    // Those of whom it tells are no news if we have recovered from their loss.
+    if (hears_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
+  }
+}
+
+/// What `make(to)` makes goes to all members, and what they made is heard.
+template <class Make>
+void Session::exchange(Make&& make) {
+  for (const PeerNumber to : now_.members)
+    if (to != settings_.number) mail_.send(to, written(make(to)));
+  for (const PeerNumber from : now_.members)
+    if (from != settings_.number) peer_->hear(from, heard<decltype(make(from))>(from));
+  if (!peer_->accusation().empty()) give_up(peer_->accused(), peer_->accusation());
+}
+
+/// Whoever says what cannot be is lost to us.
+void Session::give_up(PeerNumber peer, const std::string& what) const {
+  if (!settings_.is_mirrored) throw ProtocolError(what);
+  throw PeerGone(peer, false, what);
+}
+
+void Session::advance() {
+  for (;;) try {
+      if (must_recover_) recover();
+      if (!is_over()) play_window();
+      return;
+    } catch (const PeerGone& gone) {
+      note_gone(gone.peer(), gone.what());
+    }
+}
+
+void Session::play_window() {
+  if (wishes_to_leave_) peer_->wish_to_leave();
+  State next = now_;
+  const auto when_final = [&] {
+    next = after_window();
+    const bool is_same = std::all_of(next.members.begin(), next.members.end(), [&](PeerNumber peer) { return next.cuts.has(peer) == now_.cuts.has(peer); });
+    if (is_same) return;
+    division_ = next.cuts.division(settings_.peer_count);
+    peer_->divide(division_);
+  };
+  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way.
+  const auto agree_all = [&] { settings_.is_mirrored ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
+  play_steps(*peer_, settings_.end_of(now_.window + 2), [&](auto&& make) { exchange(make); }, agree_all, when_final);
+  if (settings_.is_mirrored) {
+    PartChange change = peer_->change(false);
+    for (const PeerNumber leaver : now_.members)
+      if (!is_member(leaver, next) && mirror_of(leaver, now_) == settings_.number) {
+        const std::vector<Key> log = mirrors_[leaver].log();
+        change.log.insert(change.log.end(), log.begin(), log.end());
+      }
+    mirror(next, std::move(change));
+  } else {
+    log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
+  }
+  has_left_ = wishes_to_leave_ && (!is_member(settings_.number, next) || next.members.size() == 1);
+  adopt(std::move(next));
+}
+
+/// Who wished to leave hands its zones over, and who had none in this window is not waited for any more.
+Session::State Session::after_window() const {
+  State next = now_;
+  ++next.step, ++next.window;
+  std::erase_if(next.members, [&](PeerNumber peer) { return !now_.cuts.has(peer); });
+  for (const PeerNumber peer : now_.members) {
+    const bool is_last = std::none_of(next.members.begin(), next.members.end(), [&](PeerNumber other) { return other != peer && next.cuts.has(other); });
+    if (is_member(peer, next) && peer_->verdict_of(peer).leaves && !is_last) next.cuts = next.cuts.without(peer);
+  }
+  return next;
+}
+
+/// The own part is kept here and by another, and those of others here, as they are with the step that leads to `next`.
+void Session::mirror(const State& next, PartChange change) {
+  change.step = next.step;
+  mirrors_[settings_.number].add(change);
+  const auto to = is_member(settings_.number, next) ? mirror_of(settings_.number, next) : std::nullopt;
+  if (to) {
+    if (!change.is_whole && to != mirror_of(settings_.number, now_)) {
+      change = peer_->change(true);
+      change.step = next.step;
+      change.log = mirrors_[settings_.number].log();
+    }
+    std::vector<std::uint8_t> bytes = written(std::move(change));
+    counters_.mirror_bytes += bytes.size();
+    mail_.send(*to, std::move(bytes));
+  }
+  for (const PeerNumber from : next.members) {
+    if (from == settings_.number || mirror_of(from, next) != settings_.number) continue;
+    auto kept = heard<PartChange>(from);
+    const bool is_good = kept.step == next.step && std::all_of(kept.bodies.begin(), kept.bodies.end(), [&](const Arrivals::Body& body) { return body.number < whole_.body_count(); });
+    if (!is_good || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
+  }
+}
+
+void Session::adopt(State next) {
+  for (const PeerNumber peer : now_.members)
+    if (!is_member(peer, next) && peer != settings_.number) {
+      mail_.part(peer, false);
+      peer_->set_present(peer, false);
+    }
+  before_ = std::exchange(now_, std::move(next));
+  std::erase_if(sent_, [&](const Sent& sent) { return sent.window + 2 <= now_.window; });
+}
+
+void Session::press(const Glimpse& seen, const Press& press) {
+  peer_->press(seen.owner, press);
+  if (settings_.is_mirrored) sent_.push_back({now_.window + 1, press});
+}
+
+SessionCounters Session::counters() const {
+  SessionCounters all = counters_;
+  all.peer += peer_->counters();
+  return all;
+}
+
+std::vector<Arrivals> Session::end() {
+  for (;;) try {
+      if (must_recover_) recover();
+      while (!is_over()) play_window();
+      Arrivals own = own_bodies(*peer_);
+      own.window = static_cast<std::uint32_t>(now_.window);
+      own.keys = settings_.is_mirrored ? mirrors_[settings_.number].log() : log_;
+      std::vector<Arrivals> parts(settings_.peer_count);
+      for (const PeerNumber to : now_.members)
+        if (to != settings_.number) mail_.send(to, written(own));
+      for (const PeerNumber from : now_.members)
+        if (from != settings_.number) parts[from] = heard<Arrivals>(from);
+      parts[settings_.number] = std::move(own);
+      parts_ = std::move(parts);
+      // Nobody goes before all have all.
+      for (const PeerNumber to : now_.members)
+        if (to != settings_.number) mail_.send(to, written(Arrivals{}));
+      for (const PeerNumber from : now_.members)
+        if (from != settings_.number) heard<Arrivals>(from);
+      return parts_;
+    } catch (const PeerGone& gone) {
+      if (!parts_.empty() && gone.has_finished()) return parts_;
+      note_gone(gone.peer(), gone.what());
+    }
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,137 @@
+// One peer's part from the first window to the last, though others are lost or leave on the way.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/peer/cuts.h"
+#include "game/peer/protocol.h"
+
+namespace rink::peer {
+
+/// What a peer says when somebody is gone: the last step that it has, and all who are gone as far as it knows.
+struct Loss {
+  std::uint64_t word = 0x73736f4c6b6e6952ULL;  ///< tells it from all other messages: "RinkLoss"
+  std::uint64_t step = 0;
+  std::vector<PeerNumber> gone;
+};
+
+template <class Stream>
+bool exchange(Stream& stream, Loss& loss) {
+  return stream.number(loss.word) && loss.word == Loss{}.word && stream.number(loss.step) && stream.size(loss.gone) &&
+         std::all_of(loss.gone.begin(), loss.gone.end(), [&](PeerNumber& peer) { return stream.number(peer); });
+}
+std::vector<std::uint8_t> written(Loss message);
+bool read(std::span<const std::uint8_t> bytes, Loss& message);
+
+/// The same for all peers but for `number`.
+struct SessionSettings {
+  PeerNumber number = 0, peer_count = 1;
+  double halo = 1.0;                        ///< where it begins [m]
+  bool is_mirrored = true;                  ///< whether each part is kept by another peer, too; otherwise a loss ends all
+  std::uint64_t window_count = 1;
+  std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
+  std::vector<Key> keys{};                  ///< that all know from the start, of all bats
+  std::vector<Seat> seats{};
+};
+
+struct SessionCounters {
+  PeerCounters peer;
+  std::uint64_t mirror_bytes = 0, recovery_bytes = 0;  ///< sent
+  std::uint64_t recoveries = 0;                        ///< that came to an end
+};
+
+/// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of anybody else, since each step needs a message from everyone, so all can go back to
+/// the last step that all have. docs/peer-to-peer.md, "Loss of a peer".
+class Session {
+ public:
+  /// `whole` is at its start, and must outlive the session.
+  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail);
+
+  /// Plays a window, or recovers and plays one that was undone: then `window` may be what it was, or less. Throws Halt, ProtocolError, and what the mail throws.
+  void advance();
+  /// How many windows are final.
+  std::uint64_t window() const { return now_.window; }
+  bool is_over() const { return now_.window == settings_.window_count || has_left_; }
+
+  /// The own bodies go to others with the next window, and with the one after that this peer is no longer needed. It must be mirrored.
+  void leave() { wishes_to_leave_ = true; }
+  bool has_left() const { return has_left_; }
+
+  /// An own player's key, as Peer::press.
+  void press(const Glimpse& seen, const Press& press);
+  Peer& peer() { return *peer_; }
+  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer.
+  std::vector<Arrivals> end();
+
+  SessionCounters counters() const;
+  /// Who plays on.
+  const std::vector<PeerNumber>& members() const { return now_.members; }
+  const Division& division() const { return division_; }
+  /// Everybody who was lost, and what was said of the last.
+  const std::vector<PeerNumber>& lost() const { return gone_; }
+  const std::string& last_loss() const { return last_loss_; }
+
+ private:
+  /// What all agree on at a step.
+  struct State {
+    std::uint64_t step = 0, window = 0;
+    std::vector<PeerNumber> members;  // those who leave among them
+    Cuts cuts;
+  };
+  struct Sent {
+    std::uint64_t window;  // with whose claims it went
+    Press press;
+  };
+
+  // session.cpp
+  template <class Make>
+  void exchange(Make&& make);
+  template <class Message>
+  Message heard(PeerNumber from);
+  [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
+  void play_window();
+  State after_window() const;
+  void mirror(const State& next, PartChange change);
+  std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
+  void keep_first_parts();
+  void adopt(State next);
+  bool is_member(PeerNumber peer, const State& state) const { return std::binary_search(state.members.begin(), state.members.end(), peer); }
+
+  // session_recovery.cpp
+  void note_gone(PeerNumber peer, const std::string& what);
+  void recover();
+  std::uint64_t agree();
+  bool hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes);
+  void rewind(std::uint64_t step);
+  void require_majority() const;
+  std::vector<PeerNumber> stood_for() const;
+  Arrivals share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
+  void rebuild();
+  void enter(const State& next, std::span<const Arrivals> shares);
+  void press_again();
+  bool is_gone(PeerNumber peer) const { return std::binary_search(gone_.begin(), gone_.end(), peer); }
+
+  SessionSettings settings_;
+  Mail& mail_;
+  const physics::World& whole_;
+  State now_, before_;
+  Division division_;
+  std::optional<Peer> peer_;
+  std::vector<Mirror> mirrors_;       // by peer: of those that are mirrored here, and the own part
+  std::vector<Key> log_;              // of an own part that nobody mirrors
+  std::vector<Sent> sent_;            // of the last windows
+  std::vector<PeerNumber> gone_;      // lost, sorted
+  std::vector<std::optional<Loss>> losses_;  // the last that each peer told
+  std::string last_loss_;
+  std::vector<Arrivals> parts_;       // everybody's, in the end
+  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false;
+  SessionCounters counters_;
+};
+
+}  // namespace rink::peer

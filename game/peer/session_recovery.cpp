@@ -1,0 +1,193 @@
+// When a peer is gone: who is left agrees on the last step that all have, and goes on from there.
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "game/peer/session.h"
+
+namespace rink::peer {
+
+namespace {
+
+std::string listed(const std::vector<PeerNumber>& peers) {
+  std::string text;
+  for (const PeerNumber peer : peers) text += (text.empty() ? "" : ", ") + std::to_string(peer);
+  return text;
+}
+
+}  // namespace
+
+void Session::note_gone(PeerNumber peer, const std::string& what) {
+  if (!settings_.is_mirrored) throw Halt(what);
+  must_recover_ = true;
+  if (is_gone(peer)) return;
+  last_loss_ = what;
+  gone_.insert(std::upper_bound(gone_.begin(), gone_.end(), peer), peer);
+  mail_.part(peer, true);
+}
+
+/// Whether the message was one of loss, and told of somebody new.
+bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
+  Loss loss;
+  if (!settings_.is_mirrored || !read(bytes, loss)) give_up(from, "peer " + std::to_string(from) + " sent what is no message");
+  if (std::binary_search(loss.gone.begin(), loss.gone.end(), settings_.number)) throw Halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
+  const std::vector<PeerNumber> told = loss.gone;
+  losses_[from] = std::move(loss);
+  bool is_news = false;
+  for (const PeerNumber peer : told) {
+    if (peer >= settings_.peer_count) give_up(from, "peer " + std::to_string(from) + " tells of the loss of peer " + std::to_string(peer) + ", who never was");
+    if (is_gone(peer)) continue;
+    is_news = true;
+    note_gone(peer, "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
+  }
+  return is_news;
+}
+
+void Session::recover() {
+  rewind(agree());
+  require_majority();
+  rebuild();
+  must_recover_ = false;
+  ++counters_.recoveries;
+}
+
+/// The last step that all have who are left, when they all miss the same ones.
+std::uint64_t Session::agree() {
+  for (;;) {
+    const std::vector<PeerNumber> gone = gone_;
+    std::uint64_t step = now_.step;
+    for (const PeerNumber to : now_.members)
+      if (to != settings_.number && !is_gone(to)) mail_.send(to, written(Loss{.step = now_.step, .gone = gone}));
+    bool is_agreed = true;
+    for (const PeerNumber from : now_.members) {
+      if (from == settings_.number || is_gone(from)) continue;
+      while (is_agreed && !(losses_[from] && losses_[from]->gone == gone_)) {
+        const std::vector<std::uint8_t> bytes = mail_.receive(from);
+        Loss loss;
+        if (read(bytes, loss)) is_agreed = !hears_loss(from, bytes);  // all else is of before
+      }
+      if (!is_agreed) break;
+      step = std::min(step, losses_[from]->step);
+    }
+    if (is_agreed) return step;
+  }
+}
+
+void Session::rewind(std::uint64_t step) {
+  if (step != now_.step) {
+    if (step != before_.step) throw ProtocolError("somebody is at step " + std::to_string(step) + ", here it is " + std::to_string(now_.step));
+    now_ = before_;
+  }
+  for (Mirror& mirror : mirrors_)
+    if (!mirror.rewind(step)) mirror = Mirror();
+}
+
+/// More than half of those who played on; or half, with the first of them. Of two, either.
+void Session::require_majority() const {
+  const std::size_t count = now_.members.size();
+  const auto left = static_cast<std::size_t>(std::count_if(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
+  if (count == 2 || 2 * left > count || (2 * left == count && !is_gone(now_.members.front()))) return;
+  throw Halt(last_loss_ + ". On this side " + std::to_string(left) + " of " + std::to_string(count) + " peers are left: it halts, for the others may go on");
+}
+
+/// This one, and those of the lost that it mirrors.
+std::vector<PeerNumber> Session::stood_for() const {
+  std::vector<PeerNumber> parts{settings_.number};
+  for (const PeerNumber peer : now_.members) {
+    if (!is_gone(peer)) continue;
+    const auto mirror = mirror_of(peer, now_);
+    if (!mirror || is_gone(*mirror)) throw Halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) + " had");
+    if (mirror == settings_.number) parts.push_back(peer);
+  }
+  return parts;
+}
+
+/// All that `to` may need of these parts: what is in its zones or the halo, and whatever may act at a distance.
+Arrivals Session::share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to) {
+  Arrivals message;
+  message.window = static_cast<std::uint32_t>(now_.window);
+  for (const PeerNumber peer : parts) {
+    const Part& part = mirrors_[peer].part();
+    std::vector<std::uint32_t> bodies;
+    for (const auto& [body, state] : part.bodies) {
+      const Box place = Box::around(state.motion().at(part.time).position, state.extent()).grown(1e-6);
+      if (state.flags != 0 || division.is_near(to, place, settings_.halo)) bodies.push_back(body);
+    }
+    std::sort(bodies.begin(), bodies.end());
+    for (const std::uint32_t body : bodies) message.bodies.push_back({body, part.bodies.at(body)});
+    message.holds.insert(message.holds.end(), part.holds.begin(), part.holds.end());
+    message.keys.insert(message.keys.end(), part.keys.begin(), part.keys.end());
+  }
+  return message;
+}
+
+void Session::rebuild() {
+  const std::vector<PeerNumber> parts = stood_for();
+  State next = now_;
+  ++next.step;
+  std::erase_if(next.members, [&](PeerNumber peer) { return is_gone(peer); });
+  for (const PeerNumber peer : now_.members)
+    if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer);
+  division_ = next.cuts.division(settings_.peer_count);
+  std::vector<Arrivals> shares(settings_.peer_count);
+  for (const PeerNumber to : next.members) {
+    if (to == settings_.number) continue;
+    std::vector<std::uint8_t> bytes = written(share(parts, division_, to));
+    counters_.recovery_bytes += bytes.size();
+    mail_.send(to, std::move(bytes));
+  }
+  shares[settings_.number] = share(parts, division_, settings_.number);
+  for (const PeerNumber from : next.members)
+    if (from != settings_.number) shares[from] = heard<Arrivals>(from);
+  enter(next, shares);
+  PartChange change = peer_->change(true);
+  for (const PeerNumber peer : parts) {
+    const std::vector<Key> log = mirrors_[peer].log();
+    change.log.insert(change.log.end(), log.begin(), log.end());
+  }
+  mirror(next, std::move(change));
+  before_ = std::exchange(now_, std::move(next));
+  press_again();
+}
+
+/// A new peer in the place of the old one, from the shares of all.
+void Session::enter(const State& next, std::span<const Arrivals> shares) {
+  counters_.peer += peer_->counters();
+  peer_.emplace(whole_.spec(), division_, settings_.number, whole_.body_count(), settings_.halo);
+  for (PeerNumber peer = 0; peer < settings_.peer_count; ++peer) peer_->set_present(peer, is_member(peer, next));
+  for (const Seat& seat : settings_.seats)
+    if (is_member(seat.peer, next)) peer_->seat(seat);
+  const double time = next.window == 0 ? 0.0 : settings_.end_of(next.window);
+  peer_->enter(static_cast<std::uint32_t>(next.window), time);
+  for (const Arrivals& share : shares) peer_->take(share);
+  for (const Key& key : settings_.keys)
+    if (next.window == 0 || key.time > time) peer_->press_first(key);
+  peer_->keep_changes();
+  peer_->begin(settings_.end_of(next.window + 1));
+}
+
+/// Keys whose window was undone. Bats have other owners now, who tell.
+void Session::press_again() {
+  std::vector<Glimpse> seen = peer_->glimpses_of_all(settings_.number);
+  for (const PeerNumber to : now_.members) {
+    if (to == settings_.number) continue;
+    Arrivals message;
+    message.glimpses = peer_->glimpses_of_all(to);
+    mail_.send(to, written(message));
+  }
+  for (const PeerNumber from : now_.members) {
+    if (from == settings_.number) continue;
+    const auto message = heard<Arrivals>(from);
+    seen.insert(seen.end(), message.glimpses.begin(), message.glimpses.end());
+  }
+  for (Sent& sent : sent_) {
+    const auto glimpse = std::find_if(seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
+    if (sent.window <= now_.window || glimpse == seen.end() || glimpse->owner >= settings_.peer_count) continue;
+    sent.window = now_.window + 1;
+    peer_->press(glimpse->owner, sent.press);
+  }
+}
+
+}  // namespace rink::peer

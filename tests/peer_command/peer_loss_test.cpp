@@ -1,0 +1,125 @@
+// Processes of rink-peer that are killed, stopped and interrupted: the others end in the hash of one engine.
+#include "tests/peer_command/peer_processes.h"
+
+namespace rink::game {
+namespace {
+
+class PeerLoss : public PeerCommand {
+ protected:
+  std::string truth(double until) {
+    Game one(load_scene(scene()));
+    one.advance(until);
+    return printed(one.hash());
+  }
+  bool says(const Process& peer, const std::string& words, std::chrono::seconds limit) {
+    return until([&] { return peer.last_words().find(words) != std::string::npos; }, limit);
+  }
+};
+
+TEST_F(PeerLoss, OfOneThatIsKilledIsMadeGoodWithinASecondAndTheHashIsThatOfOneEngine) {
+  for (const char* transport : {"tcp", "shm"}) {
+    Process& first = found(3, "2", {"--transport", transport, "--pace", "realtime"});
+    Process& second = join(first, {"--transport", transport});
+    Process& third = join(second, {"--transport", transport});
+    ASSERT_TRUE(are_playing({&first, &second, &third}));
+    until([] { return false; }, 1s);
+    ASSERT_EQ(kill(second.id(), SIGKILL), 0);
+    for (const Process* peer : {&first, &third}) EXPECT_TRUE(says(*peer, "2 peers go on from", 1s)) << peer->last_words();
+    EXPECT_THAT(first.last_words(), HasSubstr("peer 1 (" + place_of(second) + ") is gone"));
+    for (const Process* peer : {&first, &third}) {
+      ASSERT_TRUE(ends(*peer));
+      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+      EXPECT_EQ(hash_of(*peer), truth(2.0)) << transport;
+    }
+  }
+}
+
+TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
+  Process& first = found(2, "2", {"--pace", "realtime"});
+  Process& second = join(first);
+  ASSERT_TRUE(are_playing({&first, &second}));
+  until([] { return false; }, 1s);
+  ASSERT_EQ(kill(first.id(), SIGKILL), 0);
+  EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.last_words();
+  ASSERT_TRUE(ends(second));
+  EXPECT_EQ(hash_of(second), truth(2.0));
+}
+
+TEST_F(PeerLoss, IsNotWhatTwoSecondsOfSilenceAre) {
+  Process& slow = found(3, "3", {"--pace", "realtime"});
+  Process& stopped = join(slow);
+  Process& other = join(stopped);
+  ASSERT_TRUE(are_playing({&slow, &stopped, &other}));
+  ASSERT_EQ(kill(stopped.id(), SIGSTOP), 0);
+  until([] { return false; }, 2s);
+  ASSERT_EQ(kill(stopped.id(), SIGCONT), 0);
+  for (const Process* peer : {&slow, &stopped, &other}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), truth(3.0));
+    EXPECT_EQ(peer->last_words(), "");
+  }
+}
+
+TEST_F(PeerLoss, OfOneThatIsSilentForTooLongIsFinalAndItHaltsWhenItComesBack) {
+  const Words patience{"--patience", "0.5"};
+  Process& first = found(3, "4", {"--pace", "realtime", "--patience", "0.5"});
+  Process& second = join(first, patience);
+  Process& third = join(first, patience);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
+  for (const Process* peer : {&first, &third}) EXPECT_TRUE(says(*peer, "2 peers go on from", 3s)) << peer->last_words();
+  ASSERT_EQ(kill(second.id(), SIGCONT), 0);
+  ASSERT_TRUE(ends(second, 3s));
+  EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+  EXPECT_THAT(second.last_words(), testing::AnyOf(HasSubstr("1 of 3 peers are left: it halts"), HasSubstr("has given this one up: it halts")));
+  for (const Process* peer : {&first, &third}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), truth(4.0));
+  }
+}
+
+TEST_F(PeerLoss, IsNotWhenOneIsInterruptedForItHandsOverWhatItOwns) {
+  Process& first = found(3, "2", {"--pace", "realtime"});
+  Process& second = join(first);
+  Process& third = join(first);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  until([] { return false; }, 1s);
+  ASSERT_EQ(kill(first.id(), SIGINT), 0);
+  ASSERT_TRUE(ends(first, 2s));
+  EXPECT_EQ(first.ending()->exit_status, 130);
+  EXPECT_THAT(first.last_words(), HasSubstr("all that this peer had is with others"));
+  for (const Process* peer : {&second, &third}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), truth(2.0));
+    EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
+  }
+}
+
+TEST_F(PeerCommand, UnmirroredNoticesWithinTwoSecondsThatAPeerWasKilledAndNamesIt) {
+  Process& first = found(3, "10000", {"--unmirrored"});
+  Process& second = join(first);
+  Process& third = join(second);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  const std::string killed = "peer 1 (" + place_of(second) + ") is gone";
+  ASSERT_EQ(kill(second.id(), SIGKILL), 0);
+  for (const Process* peer : {&first, &third}) {
+    ASSERT_TRUE(ends(*peer, 2s));
+    EXPECT_EQ(peer->ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+    EXPECT_THAT(peer->last_words(), HasSubstr(killed));
+  }
+}
+
+TEST_F(PeerCommand, UnmirroredAndInterruptedEndsAllInGoodOrder) {
+  Process& first = found(2, "10000", {"--unmirrored"});
+  Process& second = join(first);
+  ASSERT_TRUE(are_playing({&first, &second}));
+  second.stop(2000ms);
+  ASSERT_TRUE(ends(first, 2s));
+  ASSERT_TRUE(second.ending());
+  EXPECT_EQ(second.ending()->exit_status, 130);
+  EXPECT_EQ(first.ending()->exit_status, 130);
+  EXPECT_THAT(first.last_words(), HasSubstr("was interrupted, so all end"));
+}
+
+}  // namespace
+}  // namespace rink::game
