@@ -17,6 +17,8 @@ constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
 constexpr double wait_s_max = 0.05;
 /// Who is interrupted has so long to hand over what it owns.
 constexpr double leaving_s_max = 3.0;
+/// And waits so long for the others' goodbyes.
+constexpr double goodbye_s_max = 5.0;
 /// Who waits says that it is there, so often in the time that others have patience.
 constexpr double signs_per_patience = 4.0;
 
@@ -184,7 +186,8 @@ std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
 void Meeting::part(peer::PeerNumber peer, bool is_lost) {
   Link& link = link_of(peer);
   link.is_parted = true;
-  if (!is_lost || link.is_closed) return;
+  if (link.is_closed) return;
+  if (!is_lost) return say(*peers_[peer], FrameKind::farewell, bytes_of(Farewell{}));
   link.is_closed = true;
   sockets_.get().close(*peers_[peer]);
 }
@@ -196,9 +199,11 @@ void Meeting::rest_until(double time_s) {
 void Meeting::leave(const Farewell& farewell) {
   for (auto& [connection, link] : links_)
     if (link.role == Role::peer && !link.is_closed) say(connection, FrameKind::farewell, bytes_of(farewell));
-  const double give_up_s = now_s_() + (farewell.kind == FarewellKind::done ? settings_.patience_s : 0.5);
+  // Whoever closes a connection before it has read all may take its last words back with it.
+  const double give_up_s = now_s_() + (farewell.kind == FarewellKind::done ? std::min(settings_.patience_s, goodbye_s_max) : 0.5);
+  const auto is_open = [](const auto& entry) { return entry.second.role == Role::peer && entry.second.is_open && !entry.second.is_closed && !entry.second.is_done; };
   const auto is_sending = [&](const auto& entry) { return !entry.second.is_closed && entry.second.is_open && (!entry.second.outbox.empty() || sockets_.get().queued_bytes(entry.first) > 0); };
-  while (std::any_of(links_.begin(), links_.end(), is_sending) && now_s_() < give_up_s) {
+  while ((std::any_of(links_.begin(), links_.end(), is_open) || std::any_of(links_.begin(), links_.end(), is_sending)) && now_s_() < give_up_s) {
     push_all();
     sockets_.get().poll(std::chrono::milliseconds(1), *this);
   }

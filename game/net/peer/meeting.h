@@ -78,6 +78,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
     double since_s = 0.0, heard_s = 0.0, said_s = 0.0;
     FrameReader reader;
     std::optional<Greeting> early;  ///< came before we knew our own number
+    std::optional<Hello> asking;    ///< likewise
     std::deque<std::vector<std::uint8_t>> inbox;
     std::deque<std::vector<std::uint8_t>> outbox;
     std::size_t out_begin = 0;  ///< of the first in the outbox, so much is sent

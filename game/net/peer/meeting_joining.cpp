@@ -63,7 +63,10 @@ bool Meeting::hear_stranger(rti::ConnectionId connection, const Frame& frame) {
 /// The first peer gives the numbers, so that those who come at the same time through different peers get different ones.
 void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
   if (!hello.is_of_this_version()) return refuse(connection, RefusalKind::wrong_version, other_version(hello.version));
-  if (!is_in_) return refuse(connection, RefusalKind::other, "the peer that it asked is itself not in yet");
+  if (!is_in_) {
+    links_.at(connection).asking = hello;
+    return;
+  }
   if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
   if (number_ != 0) {
     say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{guests_[0].place}));
@@ -130,9 +133,12 @@ void Meeting::enter(rti::ConnectionId connection, const Welcome& welcome) {
     dial(guests_[k], Role::peer, k);
     say(*peers_[k], FrameKind::greeting, bytes_of(Greeting{settings_.session, number_, settings_.self}));
   }
-  std::vector<rti::ConnectionId> early;
-  for (const auto& [other, link] : links_)
+  std::vector<rti::ConnectionId> early, asking;
+  for (const auto& [other, link] : links_) {
     if (link.early) early.push_back(other);
+    if (link.asking) asking.push_back(other);
+  }
+  for (const rti::ConnectionId other : asking) answer(other, *std::exchange(links_.at(other).asking, std::nullopt));
   for (const rti::ConnectionId other : early) {
     admit(other, *std::exchange(links_.at(other).early, std::nullopt));
     read_frames(other);
