@@ -1,14 +1,17 @@
 """Reads a recorded conversation with the RTI by docs/wire.md alone, and prints each message as one line. Python's standard library only.
 
-    second_reader.py MODEL.xml SESSION
+    second_reader.py MODEL.xml SESSION [KEY]
 
-SESSION is a sequence of records: 'u' (from the federate) or 'd' (from the RTI), connection u32, length u32, bytes. The lines of one connection and direction stand
-together, in the order in which they were sent. Whatever the page does not explain ends the program with an error: every byte is accounted for.
+SESSION is a sequence of records: 'u' (from the federate) or 'd' (from the RTI), connection u32, length u32, bytes; 'U' and 'D' for UDP datagrams, 'X' and 'Y' for those
+that were lost on their way. The lines of one connection and direction stand together, in the order in which they were sent; then those of datagrams in theirs. Whatever the
+page does not explain ends the program with an error: every byte is accounted for. KEY is the key file of a session that begins with the admission.
 """
 import math
 import struct
 import sys
 import xml.etree.ElementTree as ElementTree
+
+import second_reader_parts as parts
 
 ALL_ONES = 0xFFFFFFFF
 BASIC_SIZES = {"HLAbyte": 1, "HLAASCIIchar": 1, "HLAoctet": 1, "HLAoctetPairLE": 2, "HLAoctetPairBE": 2, "HLAunicodeChar": 2, "HLAboolean": 4,
@@ -32,6 +35,7 @@ class Model:
         self.notes = {note.findtext("label"): note.findtext("semantics") for note in root.iter("note")}
         self.dimensions = [(each.findtext("name"), int(each.findtext("upperBound") or 0)) for outer in root.iter("dimensions") for each in outer.findall("dimension") if len(each)]
         self.objects, self.interactions = [], []
+        self.periodic = []  # by object class: the attribute that is told by baselines, and its type
         self.object_lines, self.interaction_lines = [], []
         for outer in root.iter("objects"):
             self.add(outer, "objectClass", "attribute", self.objects, [], self.object_lines, [], ALL_ONES)
@@ -43,6 +47,12 @@ class Model:
             members = inherited + [(each.findtext("name"), each.findtext("dataType")) for each in element.findall(member)]
             of_class = inherited_lines + [line for each in element.findall(member) for line in self.member_lines(each, member == "attribute")]
             number = len(into)
+            if member == "attribute":
+                periodic = self.periodic[parent] if parent != ALL_ONES else None
+                for each in element.findall(member):
+                    if periodic is None and each.findtext("updateType") == "Periodic" and parts.is_quantised_throughout(self, each.findtext("dataType")):
+                        periodic = (each.findtext("name"), each.findtext("dataType"))
+                self.periodic.append(periodic)
             into.append((element.findtext("name"), members))
             own = [] if member == "attribute" else self.travel_lines(element)
             lines.append(["%s %s" % ("object" if member == "attribute" else "interaction", element.findtext("name")), str(parent)] + own + of_class)
@@ -59,10 +69,11 @@ class Model:
         return lines + (self.travel_lines(element) if is_attribute else [])
 
     def hash(self):
-        """Of a model without quantised types."""
         lines = [line for each in self.object_lines + self.interaction_lines for line in each]
         for name, upper in self.dimensions:
             lines += ["dimension " + name, str(upper)]
+        lines += parts.codec_lines(self, {data_type for _, members in self.objects for _, data_type in members})
+        lines += ["baselines %s %s" % (name, periodic[0]) for (name, _), periodic in zip(self.objects, self.periodic) if periodic is not None]
         value = 0xCBF29CE484222325
         for byte in "".join(line + "\n" for line in lines).encode():
             value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
@@ -97,6 +108,13 @@ class Model:
         code = {"LE": "<", "BE": ">"}.get(order, "<") + NUMBER_FORMS[number] if number in NUMBER_FORMS else None
         return [(code, self.size(name), self.grid(declared) if declared is not None and declared.tag == "simpleData" else None)]
 
+    def forms(self, name):
+        """The representation of each field."""
+        declared = self.types.get(name)
+        if declared is not None and declared.tag == "fixedRecordData":
+            return [part for field in declared.findall("field") for part in self.forms(field.findtext("dataType"))]
+        return [declared.findtext("representation") if declared is not None and declared.findtext("representation") else name]
+
     def grid(self, declared):
         words = (self.notes.get(declared.get("notes")) or "").split()
         resolution = declared.findtext("resolution")
@@ -126,8 +144,8 @@ class Bits:
 
 
 class Reader:
-    def __init__(self, data, model):
-        self.data, self.at, self.model, self.stamp = data, 0, model, None
+    def __init__(self, data, model, connection=None):
+        self.data, self.at, self.model, self.stamp, self.connection = data, 0, model, None, connection
 
     def is_at_end(self):
         return self.at == len(self.data)
@@ -367,6 +385,8 @@ UP = {
     36: lambda r: r.ownership(OWNERSHIP_REQUESTS),
     37: lambda r: ["query_ownership %d %d" % (r.varint(), r.u8())],
     38: lambda r: ["resign_action %d" % r.u8()],
+    58: lambda r: r.connection.admission.hello(r),
+    59: lambda r: r.connection.admission.proof(r, 1),
     50: lambda r: ["acknowledge_keyframe %d" % r.u16()],
     51: lambda r: ["refuse_keyframe %d" % r.u16()],
     52: lambda r: ["create_region_over %d %x" % (r.u32(), r.u64())],
@@ -412,38 +432,87 @@ DOWN = {
     87: lambda r: ["time_bounds %s %s" % (r.f64(), r.f64())],
     92: lambda r: r.ownership(OWNERSHIP_NOTICES),
     93: lambda r: ["owner %d %d %s" % (r.varint(), r.u8(), r.one_or_none())],
+    110: lambda r: r.connection.keyframes.begin(r.u16()),
+    111: lambda r: parts.deltas(r, Bits),
+    118: lambda r: r.connection.admission.challenge(r),
+    119: lambda r: r.connection.admission.proof(r, 2),
     112: lambda r: ["digest " + " ".join("%08x:%08x" % (r.u32(), r.u32()) for _ in range(r.u16()))],
     107: lambda r: ["transportation %s %s %d %d %d" % (("object", "interaction")[r.u8()], ("answer", "confirmation")[r.u8()], r.varint(), r.varint(), r.u8())],
     113: lambda r: ["provide %d %s %s" % (r.varint(), r.bits(), r.short_bytes())],
 }
 
 
-def streams_of(session):
-    streams, at = {}, 0
+class Connection:
+    """What one connection's messages refer to."""
+
+    def __init__(self, secret):
+        self.keyframes, self.admission, self.way = parts.Keyframes(), parts.Admission(secret), parts.Way()
+        self.frames = {"u": 0, "d": 0}
+
+
+def records_of(session):
+    at = 0
     while at < len(session):
         connection, length = struct.unpack_from("<II", session, at + 1)
-        streams.setdefault((connection, chr(session[at])), bytearray()).extend(session[at + 9:at + 9 + length])
+        yield chr(session[at]), connection, session[at + 9:at + 9 + length]
         at += 9 + length
-    return streams
 
 
-def main(model_path, session_path):
-    model = Model(model_path)
+def frames_of(stream):
+    at = 0
+    while at < len(stream):
+        (length,) = struct.unpack_from("<I", stream, at)
+        assert length > 0 and at + 4 + length <= len(stream), "a frame is empty or cut short"
+        yield bytes(stream[at + 4:at + 4 + length])
+        at += 4 + length
+
+
+def read_frame(frame, model, connection, direction):
+    reader, lines = Reader(frame, model, connection), []
+    table = UP if direction == "u" else DOWN
+    while not reader.is_at_end():
+        kind = reader.u8()
+        assert kind in table, "kind %d of direction %s is not in docs/wire.md" % (kind, direction)
+        lines += table[kind](reader)
+    connection.keyframes.end_frame()
+    return lines
+
+
+def main(model_path, session_path, key_path=None):
+    model, secret = Model(model_path), open(key_path, "rb").read() if key_path else None
     with open(session_path, "rb") as file:
-        streams = streams_of(file.read())
-    for (connection, direction), stream in sorted(streams.items()):
-        at = 0
-        while at < len(stream):
-            (length,) = struct.unpack_from("<I", stream, at)
-            assert length > 0 and at + 4 + length <= len(stream), "a frame is empty or cut short"
-            reader = Reader(bytes(stream[at + 4:at + 4 + length]), model)
-            at += 4 + length
-            while not reader.is_at_end():
-                kind = reader.u8()
-                table = UP if direction == "u" else DOWN
-                assert kind in table, "kind %d of direction %s is not in docs/wire.md" % (kind, direction)
-                for line in table[kind](reader):
-                    print("%d%s %s" % (connection, direction, line))
+        records = list(records_of(file.read()))
+    streams, connections = {}, {}
+    for direction, connection, data in records:
+        connections.setdefault(connection, Connection(secret))
+        if direction in "ud":
+            streams.setdefault((connection, direction), bytearray()).extend(data)
+    for (number, direction), stream in sorted(streams.items()):
+        stream, greeting = connections[number].way.strip(direction, stream)
+        streams[number, direction] = stream
+        if greeting:
+            print("%d%s %s" % (number, direction, greeting))
+        first = next(frames_of(stream), b"")
+        if first[:1] in (b"\x3a", b"\x76"):  # hello and challenge: each proof is about both
+            read_frame(first, model, connections[number], direction)
+    for (number, direction), stream in sorted(streams.items()):
+        connection = connections[number]
+        for frame in frames_of(stream):
+            is_counted = connection.frames[direction] > 0 or frame[0] in (1, 64)  # from the one that asks to join, or lets in, on
+            connection.frames[direction] += is_counted
+            for line in read_frame(frame, model, connection, direction):
+                print("%d%s %s" % (number, direction, line))
+    for letter, number, data in records:
+        if letter in "UDXY":
+            connection, direction = connections[number], "u" if letter in "UX" else "d"
+            make_reader = lambda rest: Reader(rest, model, connection)
+            for line in connection.way.take(direction, data, letter in "XY", make_reader, UP if direction == "u" else DOWN, connection.frames[direction]):
+                print("%d%s %s" % (number, letter, line))
+    for number, connection in sorted(connections.items()):
+        if connection.way.up_key is not None:
+            assert connection.way.steps[-1:] == ["open"] and {"hello", "welcome", "confirm"} <= set(connection.way.steps), "how the way opens"
+            for line in connection.way.summary():
+                print("%d %s" % (number, line))
 
 
 if __name__ == "__main__":

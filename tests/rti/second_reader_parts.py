@@ -1,0 +1,224 @@
+"""What the second reader knows beyond plain messages, by docs/wire.md alone: baselines, admission, and datagrams over UDP. Python's standard library only."""
+import hashlib
+import struct
+
+ALL_ONES = 0xFFFFFFFF
+FORMS = {"HLAfloat32": 1, "HLAfloat64": 2, "HLAinteger16": 3, "HLAinteger32": 4}
+GREETING = 0x47444B52
+DATAGRAM_MAX = 1200
+
+
+# Baselines
+
+def golomb(bits, order):
+    zeros = 0
+    while bits.number(1) == 0:
+        zeros += 1
+    h = 1 << zeros | bits.number(zeros)
+    return (h - 1) << order | bits.number(order)
+
+
+def signed(number):
+    return -(number + 1) // 2 if number & 1 else number // 2
+
+
+def is_quantised_throughout(model, name):
+    return model.size(name) is not None and all(grid is not None for _, _, grid in model.fields(name))
+
+
+def rates(model, name, base=0):
+    """Which flat field is the rate of which: {rate: moved}."""
+    declared = model.types.get(name)
+    if declared is None or declared.tag != "fixedRecordData":
+        return {}
+    found, at, places = {}, base, {}
+    for field in declared.findall("field"):
+        places[field.findtext("name")] = at
+        found.update(rates(model, field.findtext("dataType"), at))
+        at += len(model.fields(field.findtext("dataType")))
+    for field in declared.findall("field"):
+        words = (model.notes.get(field.get("notes")) or "").split()
+        if words[:2] == ["rate", "of"]:
+            found[places[field.findtext("name")]] = places[words[2]]
+    return found
+
+
+def codec_lines(model, data_types):
+    """The lines of the hash for those of an attribute's data types that have a quantised form."""
+    lines = []
+    for name in sorted(data_types):
+        if model.size(name) is None or all(grid is None for _, _, grid in model.fields(name)):
+            continue
+        text, moved = "codec %s rink-quantised-1" % name, rates(model, name)
+        for number, (form, (code, size, grid)) in enumerate(zip(model.forms(name), model.fields(name))):
+            text += " %d%s%d" % (FORMS[form[:-2]] if grid is not None else 0, "b" if grid is not None and form.endswith("BE") else "l", size)
+            if grid is not None:
+                step, first, last = grid
+                text += ":%d:%d:%d" % (struct.unpack("<Q", struct.pack("<d", step))[0] // 2**52 - 1023, first, last - first)
+            if number in moved:
+                text += "@%d" % moved[number]
+        lines.append(text)
+    return lines
+
+
+class Keyframes:
+    """What one federate keeps: the states of each keyframe, by number."""
+
+    def __init__(self):
+        self.states, self.open = {}, None
+
+    def begin(self, number):
+        self.open = number
+        self.states[number] = {}
+        return ["begin_keyframe %d" % number]
+
+    def end_frame(self):
+        self.open = None
+
+
+def predicted(fields, moved, state, time):
+    """The numbers of the state after the time since it was told."""
+    counts, told = state
+    foretold = list(counts)
+    for rate, target in moved.items():
+        rate_step, rate_first, _ = fields[rate][2]
+        step, first, last = fields[target][2]
+        steps = round((rate_first + counts[rate]) * rate_step * (time - told) / step)
+        if abs(steps) < 2**50:
+            foretold[target] = min(max(foretold[target] + steps, 0), last - first)
+    return foretold
+
+
+def deltas(reader, new_bits):
+    number = reader.varint()
+    name, data_type = reader.model.periodic[number]
+    fields, moved = reader.model.fields(data_type), rates(reader.model, data_type)
+    bits, keyframes = new_bits(reader.data[reader.at:]), reader.connection.keyframes
+    baseline, orders = None, []
+    if bits.number(1):
+        baseline = keyframes.states[bits.number(16)]
+        orders = [bits.number(5) for _ in fields]
+    time = struct.unpack("<d", struct.pack("<Q", int(reader.stamp.split()[0], 16)))[0]
+    lines, handle = [], 0
+    while True:
+        if bits.number(1):
+            handle += 1
+        else:
+            step = golomb(bits, 4)
+            if step == 0:
+                break
+            handle += signed(step - 1)
+        counts = None
+        if bits.number(1) == 0:
+            counts = [foretold + signed(golomb(bits, order)) for foretold, order in zip(predicted(fields, moved, baseline[handle], time), orders)]
+        elif bits.number(1) == 0:
+            counts = [bits.number((last - first).bit_length()) for _, _, (_, first, last) in fields]
+        if counts is None:
+            value = b"".join(bytes(bits.number(8) for _ in range(size)) for _, size, _ in fields)
+        else:
+            assert all(0 <= count <= last - first for count, (_, _, (_, first, last)) in zip(counts, fields)), "beyond the range"
+            numbers = [(first + count) * step for count, (_, _, (step, first, _)) in zip(counts, fields)]
+            value = b"".join(struct.pack(code, number if code[1] in "fd" else int(number)) for (code, _, _), number in zip(fields, numbers))
+            if keyframes.open is not None:
+                keyframes.states[keyframes.open][handle] = (counts, time)
+        lines.append("reflect %d %s %s %s %s" % (handle, reader.object_class(number), name, reader.stamp, value.hex()))
+    reader.take(bits.whole_bytes())
+    return lines
+
+
+# Admission
+
+class Admission:
+    """Both ends' nonces and what they prove."""
+
+    def __init__(self, secret):
+        self.key = hashlib.blake2b(secret.rstrip(b" \t\n\v\f\r"), digest_size=32).digest() if secret else None
+        self.version = self.federation = self.federate = self.rti = None
+
+    def hello(self, reader):
+        self.version, self.federate, self.federation = reader.u16(), reader.take(32), reader.text()
+        return ["hello version %d %s" % (self.version, self.federation)]
+
+    def challenge(self, reader):
+        self.rti = reader.take(32)
+        return ["challenge"]
+
+    def proof(self, reader, who):
+        name = self.federation.encode()
+        text = b"rink admission 1" + bytes([who]) + struct.pack("<HB", self.version, len(name)) + self.federate + self.rti + name
+        good = hashlib.blake2b(text, digest_size=32, key=self.key).digest()
+        return ["%s %s" % (("", "proof", "admitted")[who], "good" if reader.take(32) == good else "bad")]
+
+
+# Datagrams
+
+class Way:
+    """The datagrams of one connection: how the way opens, what comes over it, what is acknowledged."""
+
+    def __init__(self):
+        self.up_key = self.down_key = self.nonce = None
+        self.steps, self.next, self.arrived, self.acknowledged, self.frames = [], {}, {}, {}, {}
+
+    def strip(self, direction, stream):
+        """What a connection with datagrams begins with; nothing of any other."""
+        if len(stream) < 4 or struct.unpack_from("<I", stream)[0] != GREETING:
+            return stream, None
+        if direction == "u":
+            return stream[4:], "greets"
+        port, self.up_key, self.down_key = struct.unpack_from("<HQQ", stream, 4)
+        assert port != 0
+        return stream[22:], "greets back"
+
+    def take(self, direction, datagram, is_lost, make_reader, table, frames_in_all):
+        """The lines of one datagram; of one that was lost on its way nothing is said but that."""
+        assert len(datagram) <= DATAGRAM_MAX
+        key, kind = struct.unpack_from("<QB", datagram)
+        assert key == (self.up_key if direction == "u" else self.down_key), "a stranger's"
+        rest = datagram[9:]
+        if kind != 0:
+            return [self.step(direction, kind, rest)]
+        number, frames = struct.unpack_from("<II", rest)
+        assert frames <= frames_in_all, "frames that were never sent"
+        assert frames >= self.frames.get(direction, 0) or number == 0
+        self.frames[direction] = max(frames, self.frames.get(direction, 0))
+        if number != 0:
+            assert number == self.next.get(direction, 1), "numbers count from 1"
+            self.next[direction] = number + 1
+        if is_lost:
+            return ["lost %d" % number]
+        if number != 0:
+            self.arrived.setdefault(direction, set()).add(number)
+        lines, reader = ["data %d after %d" % (number, frames)], make_reader(rest[8:])
+        while not reader.is_at_end():
+            message = reader.u8()
+            if message == 0:
+                assert not any(reader.take(len(reader.data) - reader.at)), "padding is zeros"
+            elif message == 63:
+                lines.append(self.acknowledge("d" if direction == "u" else "u", reader.u32(), reader.u64()))
+            else:
+                assert message in (13, 19), "kind %d does not travel by datagram" % message
+                lines += table[message](reader)
+        return lines
+
+    def acknowledge(self, direction, newest, before):
+        """By the other end of what went in `direction`."""
+        told = {newest} | {newest - 1 - k for k in range(64) if before >> k & 1}
+        assert told <= self.arrived.get(direction, set()), "what never arrived is acknowledged"
+        self.acknowledged.setdefault(direction, set()).update(told)
+        return "acknowledge %d %d" % (newest, bin(before).count("1"))
+
+    def step(self, direction, kind, rest):
+        assert direction == ("u" if kind in (1, 3) else "d")
+        name = ("", "hello", "welcome", "confirm", "open")[kind]
+        if kind in (1, 2):
+            assert len(rest) == DATAGRAM_MAX - 9
+        if kind == 2:
+            self.nonce = rest[:8]
+        if kind == 3:
+            assert rest == self.nonce
+        assert not any(rest if kind == 1 else rest[8:] if kind == 2 else b"" if kind == 3 else rest), "zeros"
+        self.steps.append(name)
+        return name
+
+    def summary(self):
+        return ["%s: %d numbered, %d arrived, %d acknowledged" % ("up" if d == "u" else "down", self.next.get(d, 1) - 1, len(self.arrived.get(d, ())), len(self.acknowledged.get(d, ()))) for d in "ud"]
