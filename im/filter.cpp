@@ -7,12 +7,14 @@
 // A new scheme adds its line here, in alphabetical order, and defines make_NAME_filter in its own file.
 #define RINK_SCHEMES(SCHEME) \
   SCHEME(aura)               \
+  SCHEME(cone)               \
   SCHEME(grid)               \
   SCHEME(hex)                \
   SCHEME(hierarchical)       \
   SCHEME(hybrid)             \
   SCHEME(none)               \
-  SCHEME(region)
+  SCHEME(region)             \
+  SCHEME(sight)
 
 namespace rink::im {
 

@@ -18,6 +18,18 @@ struct Region {
 /// True if `region` is finite and not inverted, as every filter asserts of what it is given. For the edge, where regions come from strangers.
 bool is_valid(const Region& region);
 
+/// A direction; its length means nothing, and one of no length is no direction.
+struct Heading {
+  double x = 0.0, y = 0.0;
+  friend bool operator==(const Heading&, const Heading&) = default;
+};
+
+/// A disc, in metres.
+struct Disc {
+  double x = 0.0, y = 0.0, radius = 0.0;
+  friend bool operator==(const Disc&, const Disc&) = default;
+};
+
 /// Small dense numbers chosen by the caller; they may be used again after removal.
 using Entity = std::uint32_t;
 using Subscriber = std::uint32_t;
@@ -56,6 +68,10 @@ class Filter {
   /// Forgets `subscriber`; no `left` is reported for it.
   virtual void remove_subscriber(Subscriber subscriber) = 0;
 
+  /// Says where `subscriber` looks, for schemes with a field of view. Until then, and after one of no length, it looks where its region last went: from its middle at one
+  /// match to its middle at the next; before it has ever moved, everywhere. Finite. A subscriber that is not there is ignored; one that is forgotten looks nowhere.
+  virtual void set_heading(Subscriber, const Heading&) {}
+
   /// The net changes since the last call, ordered by (subscriber, entity). Valid until the next call of any member.
   virtual std::span<const Change> match() = 0;
 
@@ -69,6 +85,8 @@ class Filter {
 struct FilterSettings {
   Region world{0.0, 0.0, 1.0, 1.0};  ///< where entities are expected [m]; others are served too, only slower
   double cell_size = 0.0;            ///< side of the smallest cell [m]; 0 lets the scheme choose
+  double half_angle_deg = 60.0;      ///< of a field of view, from its middle to either edge [degrees], 0 to 180; people see sharply over some 120 degrees
+  std::vector<Disc> posts{};         ///< what blocks the view [m]
 };
 
 /// The scheme called `name`, or nothing if there is none. Names: see `filter_names`.

@@ -11,13 +11,21 @@ bool RegionHistory::set(std::uint32_t id, const Region& region) {
   if (id >= motions_.size()) grow(id + std::size_t{1});
   Motion& motion = motions_[id];
   if (motion.now == region) return false;
-  if (!is_listed(id)) {
-    moved_.push_back(id);
-    listed_[id / 64] |= std::uint64_t{1} << id % 64;
-    motion.before = motion.now;
-  }
+  list(id);
   motion.now = region;
   return true;
+}
+
+void RegionHistory::touch(std::uint32_t id) {
+  if (contains(id)) list(id);
+}
+
+/// The place that it leaves is its former one, if it is the first since the last match.
+void RegionHistory::list(std::uint32_t id) {
+  if (is_listed(id)) return;
+  moved_.push_back(id);
+  listed_[id / 64] |= std::uint64_t{1} << id % 64;
+  motions_[id].before = motions_[id].now;
 }
 
 void RegionHistory::grow(std::size_t count) {

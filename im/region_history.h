@@ -36,6 +36,10 @@ class RegionHistory {
 
   /// Adds or moves `id`; false, and nothing done, if it is there already.
   bool set(std::uint32_t id, const Region& region);
+  /// Lists `id` as if it had moved, though it stays: something else about it changed. Nothing if it is not known.
+  void touch(std::uint32_t id);
+  /// True if `id` is somewhere.
+  bool contains(std::uint32_t id) const { return id < motions_.size() && !is_nowhere(motions_[id].now); }
   /// Forgets `id`, its past included; false if it is not known.
   bool remove(std::uint32_t id);
 
@@ -58,6 +62,7 @@ class RegionHistory {
 
  private:
   void grow(std::size_t count);
+  void list(std::uint32_t id);
   void unlist(std::uint32_t id);
   void drop_removed();
   bool is_listed(std::uint32_t id) const { return (listed_[id / 64] >> id % 64 & 1u) != 0; }

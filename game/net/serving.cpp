@@ -86,6 +86,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   rti::FederationSettings settings;
   settings.filter = scheme;
   settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell_size};
+  for (const Post& post : scene.bodies.posts) settings.filter_settings.posts.push_back({post.body.position.x(), post.body.position.y(), post.body.radius});
   return settings;
 }
 

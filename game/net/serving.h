@@ -62,7 +62,7 @@ class Serving {
   std::optional<ServerWitness> witness_;
 };
 
-/// A federation under the filter `scheme` over the scene's field; `cell_size` [m] is for schemes that have cells, 0 leaves it to them.
+/// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size` [m] is for schemes that have cells, 0 leaves it to them.
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme, double cell_size);
 
 }  // namespace rink::game

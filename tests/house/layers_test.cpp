@@ -18,6 +18,7 @@ struct Layer {
 /// The most specific folder stands before those that contain it. bench and tests may include anything.
 const std::vector<Layer> layers{
     {"im/matching", {"im/matching", "im"}},
+    {"im/view", {"im/view", "im", "im/matching"}},
     {"im", {"im", "im/matching"}},
     {"rti/transport/mpi", {"rti/transport/mpi", "rti/transport"}},
     {"rti/transport", {"rti/transport", "rti", "im"}},

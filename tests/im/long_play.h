@@ -10,6 +10,14 @@
 
 namespace rink::im {
 
+/// Along an axis or a diagonal, anywhere, or nowhere.
+inline Heading draw_heading(Random& random) {
+  const int kind = static_cast<int>(between(random, 0.0, 8.0));
+  const double x = between(random, -1.0, 1.0), y = between(random, -1.0, 1.0);
+  if (kind == 0) return {};
+  return kind < 5 ? Heading{std::round(1.4 * x), std::round(1.4 * y)} : Heading{x, y};
+}
+
 /// A round of what may happen between two matches; `activity` is the share of ids that something happens to.
 inline void disturb(Judged& judged, Random& random, const Layout& layout, double activity) {
   constexpr std::uint32_t entity_max = 60, subscriber_max = 15;
@@ -28,10 +36,22 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
     const auto found = judged.subscribers().find(subscriber);
     if (found != judged.subscribers().end()) judged.move_subscriber(subscriber, moved(random, found->second, layout, subscriber_half));
     else if (happens(0.5)) judged.move_subscriber(subscriber, layout.draw(random, subscriber_half));
+    if (happens(0.2)) judged.turn(subscriber, draw_heading(random));
   }
 }
 
-inline FilterSettings settings_for(std::uint64_t seed) { return {.world = {0.0, 0.0, side, side}, .cell_size = seed % 2 == 0 ? 1.0 : 0.7}; }
+/// Angles and posts that touch a lattice, and others.
+inline FilterSettings settings_for(std::uint64_t seed) {
+  constexpr std::array half_angles{45.0, 60.0, 90.0, 135.0, 17.0, 180.0, 0.0, 120.0, 100.0, 179.5};
+  FilterSettings settings{.world = {0.0, 0.0, side, side}, .cell_size = seed % 2 == 0 ? 1.0 : 0.7, .half_angle_deg = half_angles[seed % half_angles.size()]};
+  settings.posts = {{2.0, 2.0, 1.0}, {4.0, 4.0, 0.5}, {8.0, 8.25, 1.5}, {12.0, 3.0, 0.25}, {5.0, 12.0, 2.0}, {1.0, 0.5, 0.0}};
+  Random random(seed);
+  for (int i = 0; i < 4; ++i) {
+    const double x = between(random, 0.0, side), y = between(random, 0.0, side);
+    settings.posts.push_back({x, y, between(random, 0.0, 1.0)});
+  }
+  return settings;
+}
 
 /// `make` gives a fresh `Judged` for each layout.
 template <class Make>

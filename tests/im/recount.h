@@ -17,11 +17,12 @@
 #include <utility>
 
 #include "im/filter.h"
+#include "tests/im/view_truth.h"
 
 namespace rink::im {
 
 using Pairs = std::set<std::pair<Subscriber, Entity>>;
-using Relevant = std::function<bool(const Region& subscription, const Region& update)>;
+using Relevant = std::function<bool(const Observer& subscription, const Region& update)>;  // rules that know no headings fit as well
 
 /// The nearest point of `update` is in the closed disc that `subscription` holds. Wide enough that only rounding of a 64th bit could matter.
 inline bool disc_touches(const Region& subscription, const Region& update) {
@@ -89,6 +90,8 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
   if (scheme == "aura") return disc_touches;
   if (scheme == "hybrid") return [settings](const Region& s, const Region& u) { return grid_touches(settings, s, u) && overlap_closed(s, u); };
   if (scheme == "hierarchical") return with_settings(level_touches);
+  if (scheme == "cone") return [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
+  if (scheme == "sight") return with_settings(is_in_sight);
   if (scheme == "hex") return with_settings(hexagon_touches);
   return with_settings(grid_touches);
 }
@@ -105,7 +108,13 @@ class Judged {
   }
   void move_subscriber(Subscriber subscriber, const Region& region) {
     filter_->set_subscription_region(subscriber, region);
-    subscribers_[subscriber] = region;
+    static_cast<Region&>(subscribers_[subscriber]) = region;
+  }
+  void turn(Subscriber subscriber, const Heading& heading) {
+    filter_->set_heading(subscriber, heading);
+    if (!subscribers_.contains(subscriber)) return;
+    if (heading == Heading{}) turned_.erase(subscriber);
+    else subscribers_[subscriber].heading = heading, turned_.insert(subscriber);
   }
   /// Its caller knows: pairs with the removed one are dropped without a word from the filter.
   void remove_entity(Entity entity) {
@@ -116,11 +125,14 @@ class Judged {
   void remove_subscriber(Subscriber subscriber) {
     filter_->remove_subscriber(subscriber);
     subscribers_.erase(subscriber);
+    turned_.erase(subscriber);
+    middles_.erase(subscriber);
     std::erase_if(known_, [subscriber](const auto& pair) { return pair.first == subscriber; });
   }
 
   /// Replays one match: ordered, each change news, and the sum of all of them equal to the recount.
   void check_match() {
+    for (auto& [subscriber, observer] : subscribers_) follow(subscriber, observer);
     const auto changes = filter_->match();
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const Change& change = changes[i];
@@ -143,14 +155,25 @@ class Judged {
   }
 
   const std::map<Entity, Region>& entities() const { return entities_; }
-  const std::map<Subscriber, Region>& subscribers() const { return subscribers_; }
+  const std::map<Subscriber, Observer>& subscribers() const { return subscribers_; }
   Filter& filter() { return *filter_; }
 
  private:
+  /// Who was not told where to look looks where his middle went since the last match.
+  void follow(Subscriber subscriber, Observer& observer) {
+    const std::pair now = eye_of(observer);
+    const auto [last, is_new] = middles_.insert({subscriber, now});
+    const Heading way{now.first - last->second.first, now.second - last->second.second};
+    if (!is_new && way != Heading{} && !turned_.contains(subscriber)) observer.heading = way;
+    last->second = now;
+  }
+
   std::unique_ptr<Filter> filter_;
   Relevant relevant_;
   std::map<Entity, Region> entities_;
-  std::map<Subscriber, Region> subscribers_;
+  std::map<Subscriber, Observer> subscribers_;
+  std::set<Subscriber> turned_;                                  // were told where to look
+  std::map<Subscriber, std::pair<double, double>> middles_;      // at the last match
   Pairs known_;
 };
 

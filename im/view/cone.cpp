@@ -1,0 +1,92 @@
+// The scheme `cone`: an entity matters to a subscriber while its rectangle touches the subscriber's field of view, a closed sector.
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "im/predicate_filter.h"
+#include "im/view/sector.h"
+
+namespace rink::im {
+namespace {
+
+/// Where everybody looks.
+class Views {
+ public:
+  explicit Views(double half_angle_deg) : half_angle_deg_(half_angle_deg) {}
+
+  /// False if `subscriber` looks there already.
+  bool look(Subscriber subscriber, const Heading& heading, bool is_told) {
+    View& view = views_[subscriber];
+    const bool is_news = view.heading != heading;
+    if (is_news) view.heading = heading, view.wedge = Wedge(heading, half_angle_deg_);
+    view.is_told = is_told;
+    return is_news;
+  }
+  bool is_told(Subscriber subscriber) const { return views_[subscriber].is_told; }
+  Heading heading(Subscriber subscriber) const { return views_[subscriber].heading; }
+  void make_room(Subscriber subscriber) {
+    if (subscriber >= views_.size()) views_.resize(subscriber + std::size_t{1});
+  }
+  void forget(Subscriber subscriber) {
+    if (subscriber < views_.size()) views_[subscriber] = View{};
+  }
+  const Wedge& wedge(Subscriber subscriber) const { return views_[subscriber].wedge; }
+  std::size_t bytes() const { return views_.capacity() * sizeof(View); }
+
+ private:
+  struct View {
+    Heading heading;
+    bool is_told = false;  ///< not learnt from moves
+    Wedge wedge;
+  };
+  std::vector<View> views_;
+  double half_angle_deg_;
+};
+
+struct InView {
+  const Views* views;
+  bool operator()(const Party& subscriber, const Party& entity) const { return views->wedge(subscriber.id).touches(plain(subscriber.region), plain(entity.region)); }
+};
+
+class ConeFilter final : private Views, public PredicateFilter<InView> {
+ public:
+  explicit ConeFilter(const FilterSettings& settings) : Views(settings.half_angle_deg), PredicateFilter(settings.world, {this}) {}
+
+  void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    make_room(subscriber);
+    PredicateFilter::set_subscription_region(subscriber, region);
+  }
+  void remove_subscriber(Subscriber subscriber) override {
+    forget(subscriber);
+    PredicateFilter::remove_subscriber(subscriber);
+  }
+  void set_heading(Subscriber subscriber, const Heading& heading) override {
+    assert(std::isfinite(heading.x) && std::isfinite(heading.y));
+    if (!subscribers_.contains(subscriber)) return;
+    if (heading == Heading{}) return void(look(subscriber, Views::heading(subscriber), false));  // on with the last direction, until it moves
+    if (look(subscriber, heading, true)) subscribers_.touch(subscriber), ++counters_.regions_moved;
+  }
+  std::span<const Change> match() override {
+    for (const Subscriber subscriber : subscribers_.moved()) learn(subscriber);
+    return PredicateFilter::match();
+  }
+
+  std::size_t bytes() const { return PredicateFilter::bytes() + Views::bytes(); }
+
+ private:
+  void learn(Subscriber subscriber) {
+    const Motion& motion = subscribers_[subscriber];
+    if (is_told(subscriber) || is_nowhere(motion.before) || is_nowhere(motion.now)) return;
+    const Eye from(plain(motion.before)), to(plain(motion.now));
+    const Heading way{to.x - from.x, to.y - from.y};
+    if (way != Heading{}) look(subscriber, way, false);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Filter> make_cone_filter(const FilterSettings& settings);
+
+std::unique_ptr<Filter> make_cone_filter(const FilterSettings& settings) { return std::make_unique<ConeFilter>(settings); }
+
+}  // namespace rink::im

@@ -1,0 +1,13 @@
+// What a post hides from an eye.
+#pragma once
+
+#include "im/filter.h"
+#include "im/view/sector.h"
+
+namespace rink::im {
+
+/// True if `post` alone hides all of `box` from `eye`: the straight way from it to every point of the box passes through the inside of the post. A way that only
+/// touches the post is free, and a post that the eye is in hides nothing. What is hidden is convex, so the four corners decide. All is plain.
+bool hides(const Disc& post, const Eye& eye, const Region& box);
+
+}  // namespace rink::im
