@@ -15,6 +15,7 @@ Change change(std::uint64_t key) {
 
 /// Runs are short.
 void sort_run(std::uint64_t* first, std::uint64_t* end) {
+  if (first == end) return;  // then there may be no memory at all
   if (end - first > 32) return std::is_sorted(first, end) ? void() : std::sort(first, end);
   for (std::uint64_t* i = first + 1; i < end; ++i) {
     const std::uint64_t value = *i;
