@@ -13,7 +13,8 @@
 
 namespace rink::im {
 
-/// Nothing if a scheme can start with `settings`: a world with an area, and a cell size that is positive and finite.
+/// Nothing if a scheme with cells can start with `settings`: a world with an area, and a cell size that is positive and finite. For expressions and all else that
+/// settings hold: `complaint_about`.
 std::optional<Rejection> check(const FilterSettings& settings);
 
 /// Wraps a scheme. Each call says what was wrong with it, or nothing; a call that is rejected changes nothing. `Filter` itself asserts its preconditions.
@@ -32,8 +33,20 @@ class CheckedFilter {
   std::optional<Rejection> remove_entity(Entity entity);
   std::optional<Rejection> remove_subscriber(Subscriber subscriber);
 
+  /// Rejected if it is not there, or the heading is not finite.
+  std::optional<Rejection> turn(Subscriber subscriber, const Heading& heading);
+  /// Rejected if it is not there.
+  std::optional<Rejection> set_entity_role(Entity entity, const Role& role);
+  std::optional<Rejection> set_subscriber_role(Subscriber subscriber, const Role& role);
+  /// Rejected if it is not there, or a number of the flight is not finite or beyond 1e150.
+  std::optional<Rejection> fly_entity(Entity entity, const Flight& flight);
+  std::optional<Rejection> fly_subscriber(Subscriber subscriber, const Flight& flight);
+  /// Rejected if it is not finite, beyond 1e150 or before the last one.
+  std::optional<Rejection> set_time(double now);
+
   std::span<const Change> match() { return filter_->match(); }
   const Filter& filter() const { return *filter_; }
+  Filter& filter() { return *filter_; }
 
  private:
   using Presence = std::vector<bool>;
@@ -45,6 +58,7 @@ class CheckedFilter {
   std::unique_ptr<Filter> filter_;
   std::uint32_t id_limit_;
   Presence entities_, subscribers_;
+  double now_ = 0.0;
 };
 
 }  // namespace rink::im

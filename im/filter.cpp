@@ -1,20 +1,26 @@
 // The register of schemes: one line each, from name to class.
 #include "im/filter.h"
 
-#include <cassert>
 #include <cmath>
+
+#include "im/composition/schemes.h"
 
 // A new scheme adds its line here, in alphabetical order, and defines make_NAME_filter in its own file.
 #define RINK_SCHEMES(SCHEME) \
+  SCHEME(always)             \
   SCHEME(aura)               \
   SCHEME(cone)               \
+  SCHEME(diamond)            \
   SCHEME(grid)               \
   SCHEME(hex)                \
   SCHEME(hierarchical)       \
   SCHEME(hybrid)             \
   SCHEME(none)               \
+  SCHEME(owner)              \
   SCHEME(region)             \
-  SCHEME(sight)
+  SCHEME(sight)              \
+  SCHEME(strips)             \
+  SCHEME(team)
 
 namespace rink::im {
 
@@ -40,8 +46,7 @@ bool is_valid(const Region& region) {
          region.low_x <= region.high_x && region.low_y <= region.high_y;
 }
 
-std::unique_ptr<Filter> make_filter(const std::string& name, const FilterSettings& settings) {
-  assert(is_valid(settings.world) && std::isfinite(settings.cell_size) && settings.cell_size >= 0.0);
+std::unique_ptr<Filter> make_scheme(const std::string& name, const FilterSettings& settings) {
   for (const Scheme& scheme : schemes)
     if (name == scheme.name) return scheme.make(settings);
   return nullptr;

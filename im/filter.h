@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,13 +35,14 @@ struct Disc {
 using Entity = std::uint32_t;
 using Subscriber = std::uint32_t;
 
-enum class Transition : std::uint8_t { entered, left };
+enum class Transition : std::uint8_t { entered, left, tier_changed };
 
-/// `entity` became relevant (or stopped being relevant) to `subscriber`.
+/// `entity` became relevant (or stopped being relevant) to `subscriber`, or goes on being so at another rate.
 struct Change {
   Subscriber subscriber;
   Entity entity;
   Transition transition;
+  std::uint8_t tier = 0;  ///< from 0, the nearest, where the stage `tiers` says so
   friend auto operator<=>(const Change&, const Change&) = default;
 };
 
@@ -49,7 +51,37 @@ struct FilterCounters {
   std::uint64_t regions_moved = 0;  ///< regions handed in that differed, to the scheme, from what they were (`grid`: other cells)
   std::uint64_t pairs_tested = 0;   ///< (subscriber, entity) pairs looked at one by one
   std::uint64_t changes = 0;        ///< transitions reported
+  std::uint64_t entries = 0;        ///< of these `entered`: each wants an entity's whole state, where others go on with updates
 };
+
+/// What else than its place makes an entity relevant. Ones that differ in `team` or `owner` have nothing to do with each other; by default nobody has either.
+struct Role {
+  static constexpr std::uint32_t none = 0xffffffffu;
+  std::uint32_t team = none, owner = none;
+  bool is_always_relevant = false;  ///< of an entity
+  friend bool operator==(const Role&, const Role&) = default;
+};
+
+/// How something moves until its next flight: its middle from (x, y) at `time` [s] on with that velocity [m/s] against the drag of the settings.
+struct Flight {
+  double x = 0.0, y = 0.0, velocity_x = 0.0, velocity_y = 0.0, time = 0.0;
+  friend bool operator==(const Flight&, const Flight&) = default;
+};
+
+/// When an entity that moves on as it does is with a subscriber that does likewise: from `enters` to `leaves` [s], both included, infinite if always; never if `enters > leaves`.
+struct Stay {
+  Subscriber subscriber;
+  Entity entity;
+  double enters, leaves;
+};
+
+/// One figure of what a stage did since it was made.
+struct StageCount {
+  const char *stage, *what;
+  std::uint64_t count;
+};
+
+class PriorityOrder;
 
 /// Decides which entities matter to which subscribers, and says only what changed. Pure: no clock, no I/O; the same calls give the same changes.
 /// "Net" compares the last match with this one: who enters and leaves again in between is not mentioned. An id that is removed and added again is a new
@@ -72,10 +104,26 @@ class Filter {
   /// match to its middle at the next; before it has ever moved, everywhere. Finite. A subscriber that is not there is ignored; one that is forgotten looks nowhere.
   virtual void set_heading(Subscriber, const Heading&) {}
 
+  /// Says who is of which team and whose, for the schemes `always`, `team` and `owner`. Who is not there is ignored; who is forgotten loses his role.
+  virtual void set_entity_role(Entity, const Role&) {}
+  virtual void set_subscriber_role(Subscriber, const Role&) {}
+
+  /// Says how it moves on and which time it is [s], for the stage `swept`. Who is not there is ignored. A region handed in afterwards ends a flight.
+  virtual void set_flight(Entity, const Flight&) {}
+  virtual void set_subscriber_flight(Subscriber, const Flight&) {}
+  virtual void set_time(double) {}
+
   /// The net changes since the last call, ordered by (subscriber, entity). Valid until the next call of any member.
   virtual std::span<const Change> match() = 0;
 
+  /// From the last match, by the stage `swept`: stays of pairs let through whose flights it had not seen together, ordered by (subscriber, entity).
+  virtual std::span<const Stay> stays() const { return {}; }
+  /// Who is to be sent first, if the outermost stage that says so is `priority`; else nothing.
+  virtual PriorityOrder* priority() { return nullptr; }
+
   virtual const FilterCounters& counters() const = 0;
+  /// Appends what each stage did.
+  virtual void list_counts(std::vector<StageCount>&) const {}
 
   /// Side of the smallest cells that it decides by [m]; 0 if it has none. For who shows them.
   virtual double cell_size() const { return 0.0; }
@@ -87,12 +135,22 @@ struct FilterSettings {
   double cell_size = 0.0;            ///< side of the smallest cell [m]; 0 lets the scheme choose
   double half_angle_deg = 60.0;      ///< of a field of view, from its middle to either edge [degrees], 0 to 180; people see sharply over some 120 degrees
   std::vector<Disc> posts{};         ///< what blocks the view [m]
+  double drag = 0.0;                 ///< of all flights: dv/dt = -drag v [1/s]
 };
 
-/// The scheme called `name`, or nothing if there is none. Names: see `filter_names`.
-std::unique_ptr<Filter> make_filter(const std::string& name, const FilterSettings& settings);
+/// The scheme that `expression` says, or nothing if it says none. Schemes by name (see `filter_names`) with parameters, composed with `and`, `or`, `not` and
+/// parentheses, followed by stages: "aura and not sight", "grid(cell_size=2) or always with hysteresis(margin=0.5) with dwell(matches=10)" (docs/im.md).
+std::unique_ptr<Filter> make_filter(const std::string& expression, const FilterSettings& settings);
+
+/// What is wrong with `expression` or `settings`, naming the offender; nothing if `make_filter` takes them.
+std::optional<std::string> complaint_about(const std::string& expression, const FilterSettings& settings);
+
+/// `expression` as part of a file's name: without spaces and parentheses.
+std::string file_name_of(const std::string& expression);
 
 /// Every registered scheme in alphabetical order.
 std::vector<std::string> filter_names();
+/// Every stage in alphabetical order.
+std::vector<std::string> stage_names();
 
 }  // namespace rink::im

@@ -27,15 +27,16 @@ std::span<const Change> OverlapFilter::find() {
   return changes;
 }
 
-void OverlapFilter::settle(std::size_t change_count) {
+void OverlapFilter::settle(std::span<const Change> changes) {
   entities_.settle();
   subscribers_.settle();
-  counters_.changes += change_count;
+  counters_.changes += changes.size();
+  for (const Change& change : changes) counters_.entries += change.transition == Transition::entered ? 1u : 0u;
 }
 
 std::span<const Change> OverlapFilter::match() {
   const std::span<const Change> changes = find();
-  settle(changes.size());
+  settle(changes);
   return changes;
 }
 

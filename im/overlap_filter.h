@@ -29,7 +29,7 @@ class OverlapFilter : public Filter {
  protected:
   // The two halves of `match`, for who decides more exactly than rectangles do: what changed, and that all of it has been seen.
   std::span<const Change> find();
-  void settle(std::size_t change_count);
+  void settle(std::span<const Change> changes);
 
   RegionHistory entities_, subscribers_;
   FilterCounters counters_;

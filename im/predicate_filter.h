@@ -39,7 +39,7 @@ class PredicateFilter : public OverlapFilter {
     for (const Subscriber subscriber : subscribers_.moved()) pairs_.touch(subscriber);
     changes_.clear();
     pairs_.review(box_changes, [this](Subscriber subscriber, Entity entity, bool was) { return decide(subscriber, entity, was); }, changes_);
-    settle(changes_.size());
+    settle(changes_.span());
     return changes_.span();
   }
 

@@ -12,6 +12,10 @@ const char* name(Subject subject) {
     case Subject::subscription_region: return "subscription region";
     case Subject::world: return "the world";
     case Subject::cells: return "the cell size";
+    case Subject::heading: return "the heading of subscriber";
+    case Subject::entity_flight: return "the flight of entity";
+    case Subject::subscriber_flight: return "the flight of subscriber";
+    case Subject::clock: return "the time";
   }
   return "";
 }
@@ -25,6 +29,8 @@ const char* words(Fault fault) {
     case Fault::id_too_large: return "has an id that is too large";
     case Fault::no_area: return "has no area";
     case Fault::bad_cell_size: return "is not a positive finite number";
+    case Fault::too_fast: return "goes beyond 1e150, where its places have no numbers";
+    case Fault::goes_back: return "is before the one before";
   }
   return "";
 }
@@ -32,7 +38,7 @@ const char* words(Fault fault) {
 }  // namespace
 
 std::string describe(const Rejection& rejection) {
-  const bool is_numbered = rejection.subject == Subject::update_region || rejection.subject == Subject::subscription_region;
+  const bool is_numbered = rejection.subject != Subject::world && rejection.subject != Subject::cells && rejection.subject != Subject::clock;
   std::string text = name(rejection.subject);
   if (is_numbered) text.append(1, ' ').append(std::to_string(rejection.id));
   return text.append(1, ' ').append(words(rejection.fault));

@@ -62,14 +62,14 @@ struct Crossing {
 };
 
 bool enters_in_reach(const Region& subscription, const Crossing& crossing) {
-  const auto& [side, eye, low, high, across_eye, ray, across] = crossing;
+  const double side = crossing.side, eye = crossing.eye, ray = crossing.ray, across = crossing.across;
   if (!((side > eye && ray > 0.0) || (side < eye && ray < 0.0))) return false;
   // (side - eye) across / |ray| lies within the stretch, multiplied by |ray|.
   const double forward = std::abs(ray), sideways = ray > 0.0 ? across : -across;
   const auto beyond = [&](double end) {
-    return sign_of(std::array{side, eye, end, across_eye, forward, sideways}, [](const auto& n) { return (n[0] - n[1]) * n[5] - (n[2] - n[3]) * n[4]; });
+    return sign_of(std::array{side, eye, end, crossing.across_eye, forward, sideways}, [](const auto& n) { return (n[0] - n[1]) * n[5] - (n[2] - n[3]) * n[4]; });
   };
-  if (beyond(low) < 0 || beyond(high) > 0) return false;
+  if (beyond(crossing.low) < 0 || beyond(crossing.high) > 0) return false;
   const auto reaches = [&](double from, double to) {
     return sign_of(std::array{side, eye, from, to, ray, across}, [](const auto& n) {
              const auto way = n[0] - n[1], diameter = n[3] - n[2];

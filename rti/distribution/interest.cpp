@@ -251,8 +251,8 @@ void Interest::take_filter_changes() {
   const std::span<const im::Change> changes = filter_->match();
   for (const im::Change& each : changes) {
     Regional* regional = find(*federates_[subscribers_[each.subscriber]], each.subscriber);
-    if (each.transition == im::Transition::entered) regional->inside.insert(each.entity);
-    else regional->inside.erase(each.entity);
+    if (each.transition == im::Transition::left) regional->inside.erase(each.entity);
+    else regional->inside.insert(each.entity);  // it may be there already and only change its tier
   }
   for (const im::Change& each : changes) {
     DeclaredInterest& interest = *federates_[subscribers_[each.subscriber]];

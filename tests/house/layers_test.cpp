@@ -19,7 +19,9 @@ struct Layer {
 const std::vector<Layer> layers{
     {"im/matching", {"im/matching", "im"}},
     {"im/view", {"im/view", "im", "im/matching"}},
-    {"im", {"im", "im/matching"}},
+    {"im/composition", {"im/composition", "im/stages", "im", "im/matching"}},
+    {"im/stages", {"im/stages", "im/composition", "im", "im/matching"}},
+    {"im", {"im", "im/matching", "im/composition"}},
     {"rti/transport/mpi", {"rti/transport/mpi", "rti/transport"}},
     {"rti/transport", {"rti/transport", "rti", "im"}},
     {"rti", {"rti", "im"}},

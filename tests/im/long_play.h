@@ -18,6 +18,17 @@ inline Heading draw_heading(Random& random) {
   return kind < 5 ? Heading{std::round(1.4 * x), std::round(1.4 * y)} : Heading{x, y};
 }
 
+inline Role draw_role(Random& random) {
+  const auto number = [&random] {
+    const double drawn = std::floor(between(random, 0.0, 5.0));
+    return drawn == 0.0 ? Role::none : drawn == 1.0 ? Role::none - 1u : static_cast<std::uint32_t>(drawn);
+  };
+  Role role{.team = number(), .owner = 0, .is_always_relevant = false};
+  role.owner = number();
+  role.is_always_relevant = between(random, 0.0, 1.0) < 0.2;
+  return role;
+}
+
 /// A round of what may happen between two matches; `activity` is the share of ids that something happens to.
 inline void disturb(Judged& judged, Random& random, const Layout& layout, double activity) {
   constexpr std::uint32_t entity_max = 60, subscriber_max = 15;
@@ -29,6 +40,7 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
     const auto found = judged.entities().find(entity);
     if (found != judged.entities().end()) judged.move_entity(entity, moved(random, found->second, layout, entity_half));
     else if (happens(0.5)) judged.move_entity(entity, layout.draw(random, entity_half));
+    if (happens(0.2)) judged.take_role(entity, draw_role(random));
   }
   for (Subscriber subscriber = 0; subscriber < subscriber_max; ++subscriber) {
     if (!happens(activity)) continue;
@@ -36,6 +48,7 @@ inline void disturb(Judged& judged, Random& random, const Layout& layout, double
     const auto found = judged.subscribers().find(subscriber);
     if (found != judged.subscribers().end()) judged.move_subscriber(subscriber, moved(random, found->second, layout, subscriber_half));
     else if (happens(0.5)) judged.move_subscriber(subscriber, layout.draw(random, subscriber_half));
+    if (happens(0.2)) judged.join(subscriber, draw_role(random));
     if (happens(0.2)) judged.turn(subscriber, draw_heading(random));
   }
 }

@@ -1,4 +1,4 @@
-// The short path to a scheme, as docs/im.md shows it: predicates of a few lines, each a whole filter that agrees with brute force and with closed forms.
+// The short path to a scheme: predicates of a few lines, each a whole filter that agrees with brute force and with closed forms.
 #include "im/predicate_filter.h"
 
 #include <gmock/gmock.h>
@@ -15,14 +15,13 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// The sample of docs/im.md: who is in the right half of my region matters to me.
+// Who is in the right half of my region matters to me.
 bool is_in_my_right_half(const Party& me, const Party& entity) {
   const double middle = 0.5 * me.region.low_x + 0.5 * me.region.high_x;
   return entity.region.low_x >= middle;
 }
 
 std::unique_ptr<Filter> make_right_half_filter(const FilterSettings& settings) { return make_predicate_filter(settings, &is_in_my_right_half); }
-// The sample ends here.
 
 bool overlaps_right_half(const Region& s, const Region& u) {
   const bool is_apart = u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y;

@@ -22,7 +22,7 @@
 namespace rink::im {
 
 using Pairs = std::set<std::pair<Subscriber, Entity>>;
-using Relevant = std::function<bool(const Observer& subscription, const Region& update)>;  // rules that know no headings fit as well
+using Relevant = std::function<bool(const Observer& subscription, const Body& update)>;  // rules that know no headings fit as well
 
 /// The nearest point of `update` is in the closed disc that `subscription` holds. Wide enough that only rounding of a 64th bit could matter.
 inline bool disc_touches(const Region& subscription, const Region& update) {
@@ -80,6 +80,19 @@ inline bool hexagon_touches(const FilterSettings& settings, const Region& s, con
   return true;
 }
 
+/// Steps along the axes from the subscription's middle to the nearest point of `update`, against half its shorter side.
+inline bool diamond_touches(const Region& s, const Region& u) {
+  if (!overlap_closed(s, u)) return false;
+  const auto away = [](double at, double low, double high) { return at < low ? low - at : at > high ? at - high : 0.0; };
+  return away(middle(s.low_x, s.high_x), u.low_x, u.high_x) + away(middle(s.low_y, s.high_y), u.low_y, u.high_y) <= std::min(s.high_x - s.low_x, s.high_y - s.low_y) / 2.0;
+}
+
+inline bool strip_touches(const FilterSettings& settings, const Region& s, const Region& u) {
+  const auto strip = [&](double coordinate) { return std::floor((coordinate - settings.world.low_x) / settings.cell_size); };
+  const double own = strip(middle(u.low_x, u.high_x));
+  return strip(s.low_x) <= own && own <= strip(s.high_x);
+}
+
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
   const auto with_settings = [settings](bool (*rule)(const FilterSettings&, const Region&, const Region&)) {
@@ -90,8 +103,13 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
   if (scheme == "aura") return disc_touches;
   if (scheme == "hybrid") return [settings](const Region& s, const Region& u) { return grid_touches(settings, s, u) && overlap_closed(s, u); };
   if (scheme == "hierarchical") return with_settings(level_touches);
+  if (scheme == "always") return [](const Observer&, const Body& u) { return u.role.is_always_relevant; };
+  if (scheme == "owner") return [](const Observer& s, const Body& u) { return u.role.owner != Role::none && u.role.owner == s.role.owner; };
+  if (scheme == "team") return [](const Observer& s, const Body& u) { return u.role.team != Role::none && u.role.team == s.role.team; };
   if (scheme == "cone") return [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
   if (scheme == "sight") return with_settings(is_in_sight);
+  if (scheme == "diamond") return diamond_touches;
+  if (scheme == "strips") return with_settings(strip_touches);
   if (scheme == "hex") return with_settings(hexagon_touches);
   return with_settings(grid_touches);
 }
@@ -100,11 +118,20 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
 class Judged {
  public:
   Judged(const std::string& scheme, const FilterSettings& settings) : Judged(make_filter(scheme, settings), rule_of(scheme, settings)) {}
-  Judged(std::unique_ptr<Filter> filter, Relevant relevant) : filter_(std::move(filter)), relevant_(std::move(relevant)) {}
+  /// Who is in goes on being so while `stays` says so.
+  Judged(std::unique_ptr<Filter> filter, Relevant relevant, Relevant stays = nullptr) : filter_(std::move(filter)), relevant_(std::move(relevant)), stays_(std::move(stays)) {}
 
   void move_entity(Entity entity, const Region& region) {
     filter_->set_update_region(entity, region);
-    entities_[entity] = region;
+    static_cast<Region&>(entities_[entity]) = region;
+  }
+  void take_role(Entity entity, const Role& role) {
+    filter_->set_entity_role(entity, role);
+    if (entities_.contains(entity)) entities_[entity].role = role;
+  }
+  void join(Subscriber subscriber, const Role& role) {
+    filter_->set_subscriber_role(subscriber, role);
+    if (subscribers_.contains(subscriber)) subscribers_[subscriber].role = role;
   }
   void move_subscriber(Subscriber subscriber, const Region& region) {
     filter_->set_subscription_region(subscriber, region);
@@ -133,6 +160,7 @@ class Judged {
   /// Replays one match: ordered, each change news, and the sum of all of them equal to the recount.
   void check_match() {
     for (auto& [subscriber, observer] : subscribers_) follow(subscriber, observer);
+    const Pairs expected = recount(known_);
     const auto changes = filter_->match();
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const Change& change = changes[i];
@@ -140,23 +168,28 @@ class Judged {
       if (i > 0) {
         ASSERT_LT(std::pair(changes[i - 1].subscriber, changes[i - 1].entity), pair) << "out of order or doubled";
       }
+      if (change.transition == Transition::tier_changed) {
+        ASSERT_TRUE(known_.contains(pair)) << "another tier of who is not there";
+        continue;
+      }
       const bool is_news = change.transition == Transition::entered ? known_.insert(pair).second : known_.erase(pair) == 1;
       ASSERT_TRUE(is_news) << "subscriber " << pair.first << " entity " << pair.second;
     }
-    ASSERT_EQ(known_, recount());
+    ASSERT_EQ(known_, expected);
   }
 
-  Pairs recount() const {
+  Pairs recount(const Pairs& before) const {
     Pairs pairs;
     for (const auto& [subscriber, subscription] : subscribers_)
       for (const auto& [entity, update] : entities_)
-        if (relevant_(subscription, update)) pairs.insert({subscriber, entity});
+        if (relevant_(subscription, update) || (stays_ && before.contains({subscriber, entity}) && stays_(subscription, update))) pairs.insert({subscriber, entity});
     return pairs;
   }
 
-  const std::map<Entity, Region>& entities() const { return entities_; }
+  const std::map<Entity, Body>& entities() const { return entities_; }
   const std::map<Subscriber, Observer>& subscribers() const { return subscribers_; }
   Filter& filter() { return *filter_; }
+  const Pairs& known() const { return known_; }
 
  private:
   /// Who was not told where to look looks where his middle went since the last match.
@@ -169,8 +202,8 @@ class Judged {
   }
 
   std::unique_ptr<Filter> filter_;
-  Relevant relevant_;
-  std::map<Entity, Region> entities_;
+  Relevant relevant_, stays_;
+  std::map<Entity, Body> entities_;
   std::map<Subscriber, Observer> subscribers_;
   std::set<Subscriber> turned_;                                  // were told where to look
   std::map<Subscriber, std::pair<double, double>> middles_;      // at the last match

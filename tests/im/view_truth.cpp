@@ -158,7 +158,7 @@ std::pair<double, double> eye_of(const Region& subscription) {
 
 bool sector_touches(const FilterSettings& settings, const Observer& observer, const Region& update) {
   if (are_apart(observer, update)) return false;
-  const Observer seen{plain_of(static_cast<const Region&>(observer)), observer.heading};
+  const Observer seen{plain_of(static_cast<const Region&>(observer)), observer.heading, {}};
   return sure([&]<class Real>(const Real&) { return sector_touches_in<Real>(settings, seen, plain_of(update)); });
 }
 

@@ -7,9 +7,13 @@
 
 namespace rink::im {
 
-/// A subscription as its owner left it: where it is, and where it looks.
+/// A subscription as its owner left it: where it is, where it looks, and whose it is; and an entity likewise.
 struct Observer : Region {
   Heading heading;
+  Role role;
+};
+struct Body : Region {
+  Role role;
 };
 
 /// The middle of a subscription, where its owner stands.

@@ -1,0 +1,119 @@
+// Reads expressions by recursive descent.
+#include "im/composition/expression.h"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace rink::im {
+namespace {
+
+/// Nobody writes so many parentheses; a stranger may not exhaust the stack with them.
+constexpr int depth_max = 32;
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : rest_(text) { next(); }
+
+  std::string read(Expression& expression) {
+    expression = whole();
+    if (complaint_.empty() && !token_.empty()) complain("expected 'and', 'or', 'with' or the end");
+    return complaint_;
+  }
+
+ private:
+  /// A word, a number or a sign; empty at the end.
+  void next() {
+    while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
+    std::size_t length = rest_.empty() ? 0 : 1;
+    const auto is_part = [this](char c) { return is_letter(rest_.front()) ? is_letter(c) || is_digit(c) : is_number_ && (is_digit(c) || c == '.' || c == 'e' || c == '-' || c == '+'); };
+    is_number_ = length > 0 && (is_digit(rest_.front()) || rest_.front() == '-' || rest_.front() == '.' || rest_.front() == '+');
+    while (length > 0 && length < rest_.size() && is_part(rest_[length])) ++length;
+    token_ = rest_.substr(0, length);
+    rest_.remove_prefix(length);
+  }
+  bool take(std::string_view token) {
+    if (!complaint_.empty() || token_ != token) return false;
+    next();
+    return true;
+  }
+  void complain(const std::string& what) {
+    if (complaint_.empty()) complaint_ = what + (token_.empty() ? " where it ends" : " at '" + std::string(token_) + "'");
+  }
+
+  Expression whole() {
+    if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
+    Expression result = joined(Expression::Kind::alternative);
+    while (take("with")) {
+      Expression stage = named(Expression::Kind::stage, "expected the name of a stage");
+      stage.operands.push_back(std::move(result));
+      result = std::move(stage);
+    }
+    --depth_;
+    return result;
+  }
+  Expression joined(Expression::Kind kind) {
+    const bool is_or = kind == Expression::Kind::alternative;
+    const auto operand = [&] { return is_or ? joined(Expression::Kind::conjunction) : term(); };
+    Expression result = operand();
+    while (take(is_or ? "or" : "and")) {
+      Expression both{.kind = kind, .name = {}, .parameters = {}, .operands = {}};
+      both.operands.push_back(std::move(result));
+      both.operands.push_back(operand());
+      result = std::move(both);
+    }
+    return result;
+  }
+  Expression term() {
+    if (take("not")) {
+      if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
+      Expression negation{.kind = Expression::Kind::negation, .name = {}, .parameters = {}, .operands = {}};
+      negation.operands.push_back(term());
+      --depth_;
+      return negation;
+    }
+    if (!take("(")) return named(Expression::Kind::scheme, "expected the name of a scheme, 'not' or '('");
+    Expression inner = whole();
+    if (!take(")")) complain("expected ')'");
+    return inner;
+  }
+  Expression named(Expression::Kind kind, const char* expected) {
+    Expression result{.kind = kind, .name = std::string(token_), .parameters = {}, .operands = {}};
+    if (token_.empty() || !is_letter(token_.front()) || token_ == "and" || token_ == "or" || token_ == "not" || token_ == "with") complain(expected);
+    next();
+    if (!take("(")) return result;
+    while (complaint_.empty() && !take(")")) result.parameters.push_back(parameter());
+    return result;
+  }
+  Expression::Parameter parameter() {
+    Expression::Parameter result{std::string(token_), 0.0};
+    if (token_.empty() || !is_letter(token_.front())) complain("expected 'key=number' or ')'");
+    next();
+    if (!take("=")) complain("expected '=' after '" + result.key + "'");
+    const char* const end = token_.data() + token_.size();
+    const auto [stop, fault] = std::from_chars(token_.data(), end, result.value);
+    if (token_.empty() || fault != std::errc() || stop != end || !std::isfinite(result.value)) complain("expected a number after '" + result.key + "='");
+    next();
+    return result;
+  }
+
+  std::string_view rest_, token_;
+  bool is_number_ = false;
+  int depth_ = 0;
+  std::string complaint_;
+};
+
+}  // namespace
+
+double Expression::parameter(std::string_view key, double otherwise) const {
+  for (const Parameter& each : parameters)
+    if (each.key == key) return each.value;
+  return otherwise;
+}
+
+std::string read_expression(std::string_view text, Expression& expression) { return Reader(text).read(expression); }
+
+}  // namespace rink::im

@@ -1,0 +1,42 @@
+// How a scheme is written: names with parameters, and, or, not, parentheses, and stages after `with`.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "im/filter.h"
+
+namespace rink::im {
+
+/// A composed scheme as a tree.
+///
+///     expression = alternative { "with" stage }        stage, scheme = name [ "(" { key "=" number } ")" ]
+///     alternative = conjunction { "or" conjunction }   conjunction = term { "and" term }
+///     term = "not" term | "(" expression ")" | scheme
+struct Expression {
+  enum class Kind { scheme, stage, conjunction, alternative, negation };
+  struct Parameter {
+    std::string key;
+    double value;
+  };
+  Kind kind = Kind::scheme;
+  std::string name;                   ///< of a scheme or stage
+  std::vector<Parameter> parameters;  ///< of it, as written
+  std::vector<Expression> operands;   ///< one of a stage and of `not`; two of `and` and `or`
+
+  /// That of `key`, or `otherwise`.
+  double parameter(std::string_view key, double otherwise) const;
+};
+
+/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender; an empty text if nothing is.
+std::string read_expression(std::string_view text, Expression& expression);
+
+/// What is wrong with the names and parameters in `expression`; an empty text if nothing is.
+std::string judge_expression(const Expression& expression);
+
+/// The filter that a judged expression says.
+std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings);
+
+}  // namespace rink::im

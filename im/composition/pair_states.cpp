@@ -1,0 +1,42 @@
+// Gathers the news of all filters, one line per pair.
+#include "im/composition/pair_states.h"
+
+namespace rink::im {
+
+void PairStates::remove_entity(Entity entity) {
+  for (Buffer<Entry>& entries : entries_) {
+    Entry* const end = entries.data() + entries.size();
+    Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+    if (place == end || place->entity != entity) continue;
+    std::copy(place + 1, end, place);
+    entries.resize(entries.size() - 1);
+  }
+}
+
+void PairStates::remove_subscriber(Subscriber subscriber) {
+  if (subscriber < entries_.size()) entries_[subscriber].clear();
+}
+
+void PairStates::take(std::size_t k, std::span<const Change> changes) {
+  const auto bit = static_cast<Says>(1u << k);
+  for (const Change& change : changes) {
+    if (change.transition == Transition::entered) news_.push_back({change.subscriber, change.entity, bit, 0});
+    if (change.transition == Transition::left) news_.push_back({change.subscriber, change.entity, 0, bit});
+  }
+}
+
+void PairStates::join_news() {
+  if (!std::is_sorted(news_.data(), news_.data() + news_.size(), is_before)) std::sort(news_.data(), news_.data() + news_.size(), is_before);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < news_.size(); ++i) {
+    if (kept > 0 && !is_before(news_[kept - 1], news_[i])) {
+      News& last = news_[kept - 1];
+      last.on = static_cast<Says>(last.on | news_[i].on), last.off = static_cast<Says>(last.off | news_[i].off);
+    } else {
+      news_[kept++] = news_[i];
+    }
+  }
+  news_.resize(kept);
+}
+
+}  // namespace rink::im

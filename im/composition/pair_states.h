@@ -1,0 +1,90 @@
+// What several filters last said about each pair, and what was made of it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "im/filter.h"
+#include "im/matching/buffer.h"
+
+namespace rink::im {
+
+/// Keeps the pairs of which some filter says that they are relevant, 8 bytes each, and looks again at those about which one has changed its mind; at no others.
+class PairStates {
+ public:
+  /// Bit k: filter k says that it is relevant.
+  using Says = std::uint16_t;
+  static constexpr std::size_t filter_max = 16;
+  /// 0: irrelevant; else 1 + tier.
+  using Level = std::uint16_t;
+
+  /// Forgets the pairs of one who is gone. That of an entity looks at the list of every subscriber.
+  void remove_entity(Entity entity);
+  void remove_subscriber(Subscriber subscriber);
+
+  /// Takes the changes of filter `k` at this match; to be called for each of them before `review`.
+  void take(std::size_t k, std::span<const Change> changes);
+  /// Asks `decide(says, was)` for the level of each pair about which something was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
+  template <class Decide>
+  std::size_t review(const Decide& decide, Buffer<Change>& changes);
+
+ private:
+  struct Entry {
+    Entity entity;
+    Says says;
+    Level level;
+  };
+  struct News {
+    Subscriber subscriber;
+    Entity entity;
+    Says on, off;
+  };
+  static bool is_before(const News& a, const News& b) { return a.subscriber != b.subscriber ? a.subscriber < b.subscriber : a.entity < b.entity; }
+  void join_news();
+  template <class Decide>
+  void look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes);
+
+  std::vector<Buffer<Entry>> entries_;  // by subscriber, ascending
+  Buffer<News> news_;
+  Buffer<Entry> merged_;
+};
+
+template <class Decide>
+void PairStates::look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes) {
+  const Level was = entry.level;
+  entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
+  entry.level = decide(entry.says, was);
+  const auto tier = static_cast<std::uint8_t>(entry.level == 0 ? 0 : entry.level - 1);
+  if ((was == 0) != (entry.level == 0)) changes.push_back({news.subscriber, news.entity, was == 0 ? Transition::entered : Transition::left, tier});
+  else if (was != entry.level) changes.push_back({news.subscriber, news.entity, Transition::tier_changed, tier});
+  if (entry.says != 0 || entry.level != 0) merged_.push_back(entry);
+}
+
+template <class Decide>
+std::size_t PairStates::review(const Decide& decide, Buffer<Change>& changes) {
+  join_news();
+  for (std::size_t next = 0; next < news_.size();) {
+    const Subscriber subscriber = news_[next].subscriber;
+    if (subscriber >= entries_.size()) entries_.resize(subscriber + std::size_t{1});
+    Buffer<Entry>& entries = entries_[subscriber];
+    merged_.clear();
+    std::size_t i = 0;
+    for (; next < news_.size() && news_[next].subscriber == subscriber; ++next) {
+      const News& news = news_[next];
+      for (; i < entries.size() && entries[i].entity < news.entity; ++i) merged_.push_back(entries[i]);
+      const bool is_known = i < entries.size() && entries[i].entity == news.entity;
+      look(news, is_known ? entries[i++] : Entry{news.entity, 0, 0}, decide, changes);
+    }
+    for (; i < entries.size(); ++i) merged_.push_back(entries[i]);
+    entries.resize(merged_.size());
+    std::copy_n(merged_.data(), merged_.size(), entries.data());
+  }
+  const std::size_t count = news_.size();
+  news_.clear();
+  return count;
+}
+
+}  // namespace rink::im

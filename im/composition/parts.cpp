@@ -1,0 +1,62 @@
+// Hands on, and adds up.
+#include "im/composition/parts.h"
+
+namespace rink::im {
+
+void Parts::set_update_region(Entity entity, const Region& region) {
+  for (const auto& part : parts_) part->set_update_region(entity, region);
+}
+void Parts::remove_entity(Entity entity) {
+  for (const auto& part : parts_) part->remove_entity(entity);
+}
+void Parts::set_subscription_region(Subscriber subscriber, const Region& region) {
+  for (const auto& part : parts_) part->set_subscription_region(subscriber, region);
+}
+void Parts::remove_subscriber(Subscriber subscriber) {
+  for (const auto& part : parts_) part->remove_subscriber(subscriber);
+}
+void Parts::set_heading(Subscriber subscriber, const Heading& heading) {
+  for (const auto& part : parts_) part->set_heading(subscriber, heading);
+}
+void Parts::set_entity_role(Entity entity, const Role& role) {
+  for (const auto& part : parts_) part->set_entity_role(entity, role);
+}
+void Parts::set_subscriber_role(Subscriber subscriber, const Role& role) {
+  for (const auto& part : parts_) part->set_subscriber_role(subscriber, role);
+}
+void Parts::set_flight(Entity entity, const Flight& flight) {
+  for (const auto& part : parts_) part->set_flight(entity, flight);
+}
+void Parts::set_subscriber_flight(Subscriber subscriber, const Flight& flight) {
+  for (const auto& part : parts_) part->set_subscriber_flight(subscriber, flight);
+}
+void Parts::set_time(double now) {
+  for (const auto& part : parts_) part->set_time(now);
+}
+
+double Parts::cell_size() const {
+  double smallest = 0.0;
+  for (const auto& part : parts_) {
+    const double size = part->cell_size();
+    if (size > 0.0 && (smallest == 0.0 || size < smallest)) smallest = size;
+  }
+  return smallest;
+}
+
+void Parts::list_counts(std::vector<StageCount>& counts) const {
+  for (const auto& part : parts_) part->list_counts(counts);
+}
+
+std::span<const Change> Parts::reported(std::span<const Change> changes) {
+  counters_.regions_moved = 0;
+  counters_.pairs_tested = pairs_tested_;
+  for (const auto& part : parts_) {
+    counters_.regions_moved += part->counters().regions_moved;
+    counters_.pairs_tested += part->counters().pairs_tested;
+  }
+  counters_.changes += changes.size();
+  for (const Change& change : changes) counters_.entries += change.transition == Transition::entered ? 1u : 0u;
+  return changes;
+}
+
+}  // namespace rink::im

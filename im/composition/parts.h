@@ -1,0 +1,50 @@
+// A filter made of other filters: all that it is told it hands on to each of them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "im/filter.h"
+#include "im/matching/buffer.h"
+
+namespace rink::im {
+
+/// What combinations and stages derive from; they override what concerns them.
+class Parts : public Filter {
+ public:
+  explicit Parts(std::vector<std::unique_ptr<Filter>> parts) : parts_(std::move(parts)) {}
+
+  void set_update_region(Entity entity, const Region& region) override;
+  void remove_entity(Entity entity) override;
+  void set_subscription_region(Subscriber subscriber, const Region& region) override;
+  void remove_subscriber(Subscriber subscriber) override;
+  void set_heading(Subscriber subscriber, const Heading& heading) override;
+  void set_entity_role(Entity entity, const Role& role) override;
+  void set_subscriber_role(Subscriber subscriber, const Role& role) override;
+  void set_flight(Entity entity, const Flight& flight) override;
+  void set_subscriber_flight(Subscriber subscriber, const Flight& flight) override;
+  void set_time(double now) override;
+
+  /// Of the first part.
+  std::span<const Stay> stays() const override { return parts_.front()->stays(); }
+  PriorityOrder* priority() override { return parts_.front()->priority(); }
+  double cell_size() const override;
+  /// Moves and tests of all parts together, and its own tests; the changes are its own.
+  const FilterCounters& counters() const override { return counters_; }
+  void list_counts(std::vector<StageCount>& counts) const override;
+
+ protected:
+  /// To be called at the end of a match with what it reports.
+  std::span<const Change> reported(std::span<const Change> changes);
+
+  std::vector<std::unique_ptr<Filter>> parts_;
+  Buffer<Change> changes_;
+  std::uint64_t pairs_tested_ = 0;  ///< by the derived class itself
+
+ private:
+  FilterCounters counters_;
+};
+
+}  // namespace rink::im

@@ -1,0 +1,14 @@
+// Schemes by their plain names, for those who put them together.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "im/filter.h"
+
+namespace rink::im {
+
+/// The registered scheme called `name`, or nothing if there is none.
+std::unique_ptr<Filter> make_scheme(const std::string& name, const FilterSettings& settings);
+
+}  // namespace rink::im

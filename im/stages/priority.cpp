@@ -1,0 +1,133 @@
+// The stage `priority`: keeps what is relevant and since when it waits, and sorts it when asked.
+#include <algorithm>
+#include <cmath>
+
+#include "im/composition/parts.h"
+#include "im/stages/priority_order.h"
+#include "im/stages/stages.h"
+
+namespace rink::im {
+namespace {
+
+class Priority final : public Parts {
+ public:
+  explicit Priority(std::vector<std::unique_ptr<Filter>> inner) : Parts(std::move(inner)) {}
+
+  void set_update_region(Entity entity, const Region& region) override {
+    order_.place_entity(entity, region);
+    Parts::set_update_region(entity, region);
+  }
+  void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    order_.place_subscriber(subscriber, region);
+    Parts::set_subscription_region(subscriber, region);
+  }
+  void remove_entity(Entity entity) override {
+    order_.remove_entity(entity);
+    Parts::remove_entity(entity);
+  }
+  void remove_subscriber(Subscriber subscriber) override {
+    order_.remove_subscriber(subscriber);
+    Parts::remove_subscriber(subscriber);
+  }
+  std::span<const Change> match() override {
+    const std::span<const Change> changes = parts_.front()->match();
+    order_.take(changes);
+    return reported(changes);
+  }
+  PriorityOrder* priority() override { return &order_; }
+  void list_counts(std::vector<StageCount>& counts) const override {
+    Parts::list_counts(counts);
+    const PriorityCounts& own = order_.counts();
+    for (const StageCount& count : {StageCount{"priority", "states on entry sent", own.states}, StageCount{"priority", "bytes of states on entry", own.state_bytes},
+                                    StageCount{"priority", "updates sent", own.updates}, StageCount{"priority", "bytes of updates", own.update_bytes},
+                                    StageCount{"priority", "put off", own.put_off}})
+      counts.push_back(count);
+  }
+
+ private:
+  PriorityOrder order_;
+};
+
+}  // namespace
+
+void PriorityOrder::place(std::vector<Region>& places, std::uint32_t id, const Region& region) {
+  if (id >= places.size()) places.resize(id + std::size_t{1});
+  places[id] = region;
+}
+
+PriorityOrder::Entry* PriorityOrder::find(Subscriber subscriber, Entity entity) {
+  if (subscriber >= entries_.size()) return nullptr;
+  Buffer<Entry>& entries = entries_[subscriber];
+  Entry* const end = entries.data() + entries.size();
+  Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+  return place != end && place->entity == entity ? place : nullptr;
+}
+
+void PriorityOrder::remove_entity(Entity entity) {
+  for (Subscriber subscriber = 0; subscriber < entries_.size(); ++subscriber)
+    if (Entry* const entry = find(subscriber, entity)) {
+      std::copy(entry + 1, entries_[subscriber].data() + entries_[subscriber].size(), entry);
+      entries_[subscriber].resize(entries_[subscriber].size() - 1);
+    }
+}
+
+void PriorityOrder::remove_subscriber(Subscriber subscriber) {
+  if (subscriber < entries_.size()) entries_[subscriber].clear();
+}
+
+void PriorityOrder::take(std::span<const Change> changes) {
+  ++now_;
+  for (const Change& change : changes) {
+    if (change.subscriber >= entries_.size()) entries_.resize(change.subscriber + std::size_t{1});
+    Buffer<Entry>& entries = entries_[change.subscriber];
+    Entry* const entry = find(change.subscriber, change.entity);
+    if (change.transition == Transition::tier_changed) {
+      entry->tier = change.tier;
+    } else if (change.transition == Transition::left) {
+      std::copy(entry + 1, entries.data() + entries.size(), entry);
+      entries.resize(entries.size() - 1);
+    } else {
+      entries.push_back({change.entity, change.tier, true, now_});
+      for (std::size_t i = entries.size() - 1; i > 0 && entries[i].entity < entries[i - 1].entity; --i) std::swap(entries[i], entries[i - 1]);
+    }
+  }
+}
+
+std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber) {
+  ranked_.clear();
+  items_.clear();
+  if (subscriber >= entries_.size()) return {};
+  // Halved, as everywhere: the differences of the largest numbers have no double.
+  const Region& own = subscribers_[subscriber];
+  const double reach = std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y);
+  for (const Entry& entry : entries_[subscriber].span()) {
+    const Region& at = entities_[entry.entity];
+    const double x = (0.25 * at.low_x + 0.25 * at.high_x) - (0.25 * own.low_x + 0.25 * own.high_x), y = (0.25 * at.low_y + 0.25 * at.high_y) - (0.25 * own.low_y + 0.25 * own.high_y);
+    const double distance = 2.0 * std::sqrt(x * x + y * y), weight = reach > 0.0 ? 1.0 / (1.0 + std::min(distance / reach, 1e9)) : 1.0;
+    const double waited = entry.is_state ? 1.0 : static_cast<double>(now_ - entry.sent);
+    ranked_.push_back({std::ldexp(waited * weight, -entry.tier), {entry.entity, entry.is_state}});
+  }
+  std::sort(ranked_.data(), ranked_.data() + ranked_.size(), [](const Ranked& a, const Ranked& b) {
+    if (a.item.is_state != b.item.is_state) return a.item.is_state;
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.item.entity < b.item.entity;
+  });
+  for (const Ranked& each : ranked_.span()) items_.push_back(each.item);
+  return items_.span();
+}
+
+void PriorityOrder::sent(Subscriber subscriber, const Item& item, std::size_t bytes) {
+  Entry* const entry = find(subscriber, item.entity);
+  if (!entry) return;
+  ++(entry->is_state ? counts_.states : counts_.updates);
+  (entry->is_state ? counts_.state_bytes : counts_.update_bytes) += bytes;
+  entry->is_state = false;
+  entry->sent = now_;
+}
+
+std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner) {
+  std::vector<std::unique_ptr<Filter>> parts;
+  parts.push_back(std::move(inner));
+  return std::make_unique<Priority>(std::move(parts));
+}
+
+}  // namespace rink::im

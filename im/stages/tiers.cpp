@@ -1,0 +1,68 @@
+// The stage `tiers`: how near an entity is, in rings, so that what is far may be updated less often.
+#include <algorithm>
+#include <bit>
+
+#include "im/composition/pair_states.h"
+#include "im/composition/parts.h"
+#include "im/stages/stages.h"
+
+namespace rink::im {
+namespace {
+
+/// A square around the middle of `region`, of which `fraction` of the radius that its shorter side allows is inscribed.
+Region ring_of(const Region& region, double fraction) {
+  const double x = 0.5 * region.low_x + 0.5 * region.high_x, y = 0.5 * region.low_y + 0.5 * region.high_y;
+  const double half = fraction * std::min(0.5 * region.high_x - 0.5 * region.low_x, 0.5 * region.high_y - 0.5 * region.low_y);
+  return {x - half, y - half, x + half, y + half};
+}
+
+/// Part 0 is what it stands behind, part 1 + k the ring of tier k.
+class Tiers final : public Parts {
+ public:
+  Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions) : Parts(std::move(parts)), fractions_(std::move(fractions)) {}
+
+  void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    parts_[0]->set_subscription_region(subscriber, region);
+    for (std::size_t k = 0; k < fractions_.size(); ++k) parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
+  }
+  void remove_entity(Entity entity) override {
+    Parts::remove_entity(entity);
+    pairs_.remove_entity(entity);
+  }
+  void remove_subscriber(Subscriber subscriber) override {
+    Parts::remove_subscriber(subscriber);
+    pairs_.remove_subscriber(subscriber);
+  }
+  std::span<const Change> match() override {
+    for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
+    changes_.clear();
+    const auto level = [this](PairStates::Says says, PairStates::Level) {
+      if ((says & 1u) == 0) return PairStates::Level{0};
+      const auto tier = std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))), fractions_.size());
+      return static_cast<PairStates::Level>(1 + tier);
+    };
+    pairs_tested_ += pairs_.review(level, changes_);
+    for (const Change& change : changes_.span()) tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
+    return reported(changes_.span());
+  }
+  void list_counts(std::vector<StageCount>& counts) const override {
+    Parts::list_counts(counts);
+    counts.push_back({"tiers", "changes of tier", tier_changes_});
+  }
+
+ private:
+  std::vector<double> fractions_;
+  std::uint64_t tier_changes_ = 0;
+  PairStates pairs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Filter> make_tiers(std::unique_ptr<Filter> inner, std::vector<std::unique_ptr<Filter>> rings, std::vector<double> fractions) {
+  std::vector<std::unique_ptr<Filter>> parts;
+  parts.push_back(std::move(inner));
+  for (auto& ring : rings) parts.push_back(std::move(ring));
+  return std::make_unique<Tiers>(std::move(parts), std::move(fractions));
+}
+
+}  // namespace rink::im

@@ -1,0 +1,48 @@
+// The samples of docs/im.md are the code that is compiled.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "im/filter.h"
+#include "tests/places.h"
+
+namespace rink::im {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(std::filesystem::path(test::source_folder()) / path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// The C++ blocks of a document after `heading`.
+std::vector<std::string> samples_after(const std::string& heading, const std::string& document) {
+  std::vector<std::string> samples;
+  const std::string opens = "```cpp\n", closes = "```\n";
+  for (std::size_t at = document.find(opens, document.find(heading)); at != std::string::npos; at = document.find(opens, at)) {
+    at += opens.size();
+    samples.push_back(document.substr(at, document.find(closes, at) - at));
+  }
+  return samples;
+}
+
+TEST(Documentation, ShowsTheSamplesAsTheyAreCompiled) {
+  const std::vector<std::string> samples = samples_after("## A new scheme", text_of("docs/im.md"));
+  ASSERT_EQ(samples.size(), 4u);
+  EXPECT_NE(text_of("im/diamond.cpp").find(samples[0]), std::string::npos) << samples[0];
+  EXPECT_NE(text_of("im/diamond.cpp").find(samples[1]), std::string::npos) << samples[1];
+  EXPECT_NE(text_of("im/filter.cpp").find(samples[2]), std::string::npos) << samples[2];
+  EXPECT_NE(text_of("im/strips.cpp").find(samples[3]), std::string::npos) << samples[3];
+}
+
+TEST(Documentation, NamesEverySchemeAndStage) {
+  const std::string document = text_of("docs/im.md");
+  for (const auto& names : {filter_names(), stage_names()})
+    for (const std::string& name : names) EXPECT_NE(document.find("`" + name + "`"), std::string::npos) << name;
+}
+
+}  // namespace
+}  // namespace rink::im
