@@ -66,9 +66,9 @@ std::size_t measured(const Claims& m) {
   static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>(), press = size_of<Press>();
   return empty + m.bodies.size() * body + m.flights.size() * flight + m.presses.size() * press + checksum_size;
 }
-std::size_t measured(const Verdict&) {
-  static const std::size_t size = size_of<Verdict>();
-  return size + checksum_size;
+std::size_t measured(const Verdict& m) {
+  static const std::size_t empty = size_of<Verdict>();
+  return empty + m.listed.size() + checksum_size;
 }
 
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }

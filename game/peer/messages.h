@@ -90,6 +90,10 @@ struct Verdict {
   bool was_hopeless = false;        ///< simultaneous impacts that have no solution
   std::uint64_t events = 0;         ///< with a body of the sender's own, in this run
   bool leaves = false;              ///< the sender wishes to hand over all that it owns when the window is final
+  /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of many peers are not taken for simultaneous; none if they are more than
+  /// `listed_max`, or if there are so few peers that it does not matter.
+  static constexpr std::size_t listed_max = 64;
+  std::vector<std::uint8_t> listed;
 };
 
 template <class Stream>
@@ -176,8 +180,12 @@ bool exchange(Stream& stream, Claims& message) {
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  return stream.number(message.window) && stream.truth(message.accepts) && stream.numbers(message.halo, message.at_once_max) && stream.truth(message.was_hopeless) &&
-         stream.number(message.events) && stream.truth(message.leaves);
+  if (!stream.number(message.window) || !stream.truth(message.accepts) || !stream.numbers(message.halo, message.at_once_max) || !stream.truth(message.was_hopeless)) return false;
+  if (!stream.number(message.events) || !stream.truth(message.leaves)) return false;
+  if (!stream.size(message.listed) || message.listed.size() > Verdict::listed_max) return false;
+  for (std::uint8_t& part : message.listed)
+    if (!stream.number(part)) return false;
+  return true;
 }
 
 /// With a checksum at the end.

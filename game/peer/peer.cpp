@@ -47,6 +47,7 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       owners_(body_count, 0),
       known_(division.peer_count()),
       presses_(division.peer_count()),
+      coming_(division.peer_count()),
       claims_(division.peer_count()),
       verdicts_(division.peer_count()),
       arrivals_(division.peer_count()) {
@@ -120,6 +121,7 @@ void Peer::choose_margin() {
 }
 
 bool Peer::knows(PeerNumber peer, std::uint32_t body) const { return contains(known_[peer], body); }
+bool Peer::will_have(PeerNumber peer, std::uint32_t body) const { return contains(coming_[peer], body); }
 
 void Peer::play() {
   play_keys(end_);
@@ -137,15 +139,14 @@ void Peer::play_keys(double until) {
 /// The same decision everywhere, for all have heard the same.
 Outcome Peer::conclude() {
   const auto is_whole = [](double halo) { return halo == infinity; };
-  std::uint64_t at_once = 0;
   bool is_hopeless = false, is_final = true;
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
     if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = halos_[peer]};
     const Verdict& verdict = verdicts_[peer];
-    at_once += verdict.at_once_max, is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+    is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
   }
   // The engine's last resorts against endless series at one instant count what happens in the whole field.
-  const bool needs_whole = (at_once >= physics::events_at_once_local || is_hopeless) && !std::all_of(halos_.begin(), halos_.end(), is_whole);
+  const bool needs_whole = (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !std::all_of(halos_.begin(), halos_.end(), is_whole);
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
     is_repeating_[peer] = needs_whole || !verdicts_[peer].accepts;
     if (needs_whole) halos_[peer] = infinity;
@@ -195,6 +196,7 @@ Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
   for (const Key& key : keys_)
     if (contains(there, key.bat) && (key.time <= until || division_.owner_of(portion_.world().position({key.bat})) == peer)) message.keys.push_back(key);
   message.glimpses = glimpses_for(peer);
+  coming_[peer] = std::move(there);
   counters_.arrival_bytes += measured(message);
   return message;
 }

@@ -90,6 +90,8 @@ class Peer {
   const Verdict& verdict() const { return verdicts_[number_]; }
   const Verdict& verdict_of(PeerNumber peer) const { return verdicts_[peer]; }
   bool repeats(PeerNumber peer) const { return is_repeating_[peer]; }
+  /// Between the arrivals for `peer` and the commit: whether it will have the own body in the next window, as its own or as a ghost.
+  bool will_have(PeerNumber peer, std::uint32_t body) const;
 
   Arrivals arrivals_for_repeat(PeerNumber peer);
   /// `until` [s]: the end of the next window.
@@ -162,6 +164,8 @@ class Peer {
   void lay_out_paths();
   double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed, std::vector<PathFlight>& beyond) const;
   bool may_touch_own(const PathFlight& flight) const;
+  std::vector<std::uint8_t> parts_of_events() const;
+  std::uint64_t at_once_bound() const;
   double needed_halo() const;
   bool hears_truth();
   bool trusts_ghosts();
@@ -197,6 +201,7 @@ class Peer {
   std::vector<Reach> outskirts_;    // own bodies that are not at home at the window's end: what they and their companions take up then
   std::vector<std::vector<std::uint32_t>> known_;  // to each peer, at the window's start: which of the own bodies it has; sorted
   std::vector<Hold> entered_holds_; // of parts that were taken, until the first window begins
+  std::vector<std::vector<std::uint32_t>> coming_;  // to each peer, in the next window: which of the own bodies it will have; sorted
   std::vector<Key> keys_, due_;     // still to come, of own bats; in this window
   std::vector<Seat> seats_;
   std::vector<Glimpse> glimpses_;

@@ -1,5 +1,6 @@
 // What happened in a window, what is claimed of it, and whether it can stand: docs/peer-to-peer.md, "The rule".
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -20,6 +21,8 @@ constexpr double time_margin = 2e-9;
 /// Of halos that turn out too narrow, and of all others, bit by bit.
 constexpr double widening = 1.25, narrowing = 1.0 - 2e-4;
 constexpr std::uint32_t attempts_max = 40;
+/// So many need 8 events at one instant each before they would be taken for endless together; telling when they came would cost more.
+constexpr PeerNumber few_peers = 8;
 
 std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
   digest = (digest ^ word) * 0x9e3779b97f4a7c15ULL;
@@ -170,7 +173,7 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
-  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_};
+  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events()};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = usual_halo_;
@@ -181,6 +184,30 @@ const Verdict& Peer::judge() {
   }
   counters_.verdict_bytes += measured(verdict);
   return verdict;
+}
+
+std::vector<std::uint8_t> Peer::parts_of_events() const {
+  std::vector<std::uint8_t> parts;
+  const std::vector<double>& times = portion_.journal().times;
+  if (division_.peer_count() <= few_peers || times.size() > Verdict::listed_max) return parts;
+  for (const double time : times) parts.push_back(static_cast<std::uint8_t>(std::clamp(256.0 * (time - start_) / (end_ - start_), 0.0, 255.0)));
+  return parts;
+}
+
+/// At least as many as came at any one instant in the whole. An instant, which is a few roundings long, may lie on both sides of where two parts of the window meet.
+std::uint64_t Peer::at_once_bound() const {
+  std::uint64_t sum = 0, unlisted = 0;
+  for (const Verdict& verdict : verdicts_) sum += verdict.at_once_max;
+  if (sum < physics::events_at_once_local) return sum;
+  std::array<std::uint64_t, 256> listed{};
+  for (const Verdict& verdict : verdicts_) {
+    std::array<std::uint64_t, 257> own{};
+    for (const std::uint8_t part : verdict.listed) ++own[part];
+    if (verdict.listed.empty()) unlisted += verdict.at_once_max;
+    else
+      for (std::size_t part = 0; part < 256; ++part) listed[part] += std::min(verdict.at_once_max, own[part] + own[part + 1]);
+  }
+  return unlisted + *std::max_element(listed.begin(), listed.end());
 }
 
 /// The halo that holds all own paths, so that nobody who is not known, and stays out of the halo, can touch them.

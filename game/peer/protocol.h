@@ -14,14 +14,15 @@ namespace rink::peer {
 /// What one peer has to each of the others: bytes go whole and in order.
 class Mail {
  public:
+  static constexpr std::size_t shared_max = 127;
   virtual ~Mail() = default;
   /// To one who is gone: does nothing.
   virtual void send(PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
   /// The next message of `from`; waits for it. Throws what its maker chooses if there will be none; PeerGone, of anybody who is gone and has not been parted with, where peers
   /// can do without each other.
   virtual std::vector<std::uint8_t> receive(PeerNumber from) = 0;
-  /// What each of `peer_count` says to all, by number, when all call it with equally many bytes at the same point of the protocol: by send and receive, unless whoever carries
-  /// the mail has a shorter way.
+  /// What each of `peer_count` says to all, by number, when all call it at the same point of the protocol with at most `shared_max` bytes: by send and receive, unless whoever
+  /// carries the mail has a shorter way.
   virtual std::vector<std::vector<std::uint8_t>> share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes);
   /// Nothing more will be said to `peer`, nor heard of it. `is_lost`: and it shall notice, if it is still there; otherwise it leaves by itself.
   virtual void part(PeerNumber /*peer*/, bool /*is_lost*/) {}

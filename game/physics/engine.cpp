@@ -269,7 +269,7 @@ void BasicEngine<Real>::count_event(Real time) {
     is_hopeless_ = false;
   }
   counters_.events_at_once_max = std::max(counters_.events_at_once_max, ++events_at_once_);
-  if (journal_ != nullptr) journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_);
+  if (journal_ != nullptr) journal_->at_once_max = std::max(journal_->at_once_max, events_at_once_), journal_->times.push_back(time);
 }
 
 template <class Real>

@@ -51,6 +51,7 @@ struct BasicJournal {
   Real time = 0.0;                         ///< of it
   Real played = -1.0;                      ///< the instant at which advance() began, if it had been there
   std::uint64_t at_once_max = 0;           ///< the most events at one instant
+  std::vector<Real> times;                 ///< of all events that are counted so
   bool was_hopeless = false;               ///< a joint impact could not be solved
   HoldAge age;
 

@@ -119,7 +119,7 @@ void Portion::begin_window() {
   const Engine& e = engine();
   journal_.changes.clear(), journal_.motions.clear(), journal_.flights.clear(), journal_.states.clear(), journal_.looked_at.clear();
   journal_.mark += 2;
-  journal_.event = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.was_hopeless = false;
+  journal_.event = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.times.clear(), journal_.was_hopeless = false;
   holds_before_ = e.holds_, frozen_before_ = e.frozen_;
   clock_before_ = {e.now_, e.instant_begin_, e.events_at_once_, e.jam_count_, e.is_hopeless_, e.is_played_};
   counters_before_ = e.counters_;

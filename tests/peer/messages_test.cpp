@@ -36,7 +36,7 @@ TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
   expect_kept(some_arrivals());
   const std::vector<ClaimedFlight> flights{{0.5, 99, 0.0f, 1.0f, 2.0f, 3.0f}, {0.6, 98}, {0.0, 0}};
   expect_kept(Claims{.window = 2, .known_count = 7, .bodies = {{4, 2, true}, {9, 1, false}}, .flights = flights, .presses = {{3, {1.0, -2.0}, 5}, {}}});
-  expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<double>::infinity(), .at_once_max = 3, .was_hopeless = true});
+  expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<double>::infinity(), .at_once_max = 3, .was_hopeless = true, .events = 9, .leaves = true, .listed = {0, 7, 255}});
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {

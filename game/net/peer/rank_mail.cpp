@@ -14,6 +14,18 @@ namespace rink::game {
 
 namespace {
 
+/// What all ranks say at once has places of equal size.
+constexpr std::size_t place_size = 1 + peer::Mail::shared_max;
+static_assert(place_size == rank_words);
+
+std::vector<std::uint8_t> in_its_place(std::span<const std::uint8_t> content) {
+  assert(content.size() < place_size);
+  std::vector<std::uint8_t> place(place_size, 0);
+  place[0] = static_cast<std::uint8_t>(content.size());
+  std::memcpy(place.data() + 1, content.data(), content.size());
+  return place;
+}
+
 std::string text_of(double until, double window) {
   std::ostringstream text;
   text << until << " s in windows of " << window << " s";
@@ -32,12 +44,7 @@ std::optional<RefusedRank> refused(const std::optional<RankWords>& theirs, const
 }  // namespace
 
 std::vector<std::uint8_t> spoken(const RankWords& words) {
-  const std::vector<std::uint8_t> content = bytes_of(words);
-  assert(content.size() < rank_words);
-  std::vector<std::uint8_t> bytes(rank_words, 0);
-  bytes[0] = static_cast<std::uint8_t>(content.size());
-  std::memcpy(bytes.data() + 1, content.data(), content.size());
-  return bytes;
+  return in_its_place(bytes_of(words));
 }
 
 /// A first rank that cannot be understood is measured by this one's version alone: whoever differs from it is named.
@@ -98,13 +105,14 @@ std::vector<std::uint8_t> RankMail::receive(peer::PeerNumber from) {
   return std::move(*bytes);
 }
 
-/// Counted as what it says to all others, however the collective carries it.
+/// In places of equal size, each with its length first. Counted as what it says to all others, however the collective carries it.
 std::vector<std::vector<std::uint8_t>> RankMail::share(peer::PeerNumber, peer::PeerNumber peer_count, std::vector<std::uint8_t> bytes) {
   bytes_sent_ += bytes.size() * (peer_count - 1);
-  const std::span<const std::uint8_t> heard = gather(bytes);
+  const std::span<const std::uint8_t> heard = gather(in_its_place(bytes));
   std::vector<std::vector<std::uint8_t>> all;
   for (peer::PeerNumber from = 0; from < peer_count; ++from) {
-    const auto part = heard.subspan(from * bytes.size(), bytes.size());
+    const auto place = heard.subspan(from * place_size, place_size);
+    const auto part = place.subspan(1, std::min<std::size_t>(place[0], place_size - 1));
     all.emplace_back(part.begin(), part.end());
   }
   return all;
