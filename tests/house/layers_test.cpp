@@ -34,14 +34,14 @@ const std::vector<Layer> layers{
     {"game/match", {"game/match", "game/control", "game/players", "game/model", "game/physics"}},
     {"game/players", {"game/players", "game/model", "game/physics"}},
     {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im"}},
-    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi"}},
+    {"game/net/peer", {"game/net/peer", "game/net", "game/peer", "game/replication", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi", "im"}},
     {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
     {"game/view", {"game/view", "game/view/render", "game/match", "game/net", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
     {"loadgen/duel", {"loadgen/duel", "loadgen", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"loadgen/truth", {"loadgen/truth", "loadgen", "game/net", "game/control", "game/model", "game/physics"}},
     {"loadgen/report", {"loadgen/report", "loadgen"}},
-    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};

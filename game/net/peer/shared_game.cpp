@@ -94,6 +94,14 @@ std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
   return seats;
 }
 
+std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division, peer::PeerNumber number, double window) const {
+  const physics::World& whole = start_.world();
+  auto peer = std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(), first_halo(window));
+  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer->consider(body, physics::Portion::state_in(whole, body));
+  for (const peer::Key& key : thrusts()) peer->press_first(key);
+  return peer;
+}
+
 /// Everybody's together.
 std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> logs) const {
   std::vector<InputEvent> keys;

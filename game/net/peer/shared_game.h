@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,12 @@ class SharedGame {
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
   /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, peer::Halt, and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
+
+  /// What playing it is made of, for those who do so step by step: the game at its start; a peer that owns its part by `division` and knows all keys, whose first window ends with
+  /// the first `window` [s]; and Game::hash() of a world that has come to `until` [s] under the keys that all know.
+  const Game& start() const { return start_; }
+  std::unique_ptr<peer::Peer> peer(const peer::Division& division, peer::PeerNumber number, double window) const;
+  std::uint64_t hash(std::uint64_t world, double until) const { return hash(world, keys_, until); }
 
  private:
   double first_halo(double window) const;

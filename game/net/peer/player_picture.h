@@ -1,0 +1,64 @@
+// What one peer's player is told of bodies that the peer neither owns nor has as ghosts.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "game/peer/division.h"
+#include "game/replication/trajectory.h"
+#include "rti/wire/bytes.h"
+
+namespace rink::game {
+
+/// One body of an update message (docs/peer-to-peer.md, "Interest"), cut out of it.
+struct ToldOf {
+  enum class Form : std::uint8_t { left, motion, motion_and_felt, felt };
+  std::uint32_t body = 0;
+  Form form = Form::left;
+  std::uint32_t felt = 0;   ///< keys, of the receiver's own bat
+  rti::Bytes motion;        ///< as the policy codes it
+};
+
+/// A body as its owner last told of it.
+struct Belief {
+  peer::PeerNumber source = 0;
+  bool is_there = false;
+  physics::Motion motion;     ///< its law, or a place that it keeps until it is told of again
+  physics::Vector2 position_at(double instant) const { return motion.at(std::max(instant, motion.time)).position; }
+};
+
+class PlayerPicture {
+ public:
+  struct Heard {
+    std::uint32_t body = 0, bytes = 0;
+  };
+  PlayerPicture(std::uint32_t body_count, bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds)
+      : beliefs_(body_count), has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
+
+  /// False for what is no whole update message; what could be read of it is applied.
+  bool hear(peer::PeerNumber from, rti::Bytes message, double windows_per_s);
+  /// All that came from `source` is forgotten: it was told that we look elsewhere.
+  void forget(peer::PeerNumber source);
+  void forget_body(std::uint32_t body) { beliefs_[body].is_there = false; }
+
+  const Belief& belief(std::uint32_t body) const { return beliefs_[body]; }
+  std::uint32_t body_count() const { return static_cast<std::uint32_t>(beliefs_.size()); }
+  /// Of the player's own bat, as its owner last told.
+  std::uint32_t felt() const { return felt_; }
+  /// What came since they were last forgotten.
+  const std::vector<Heard>& heard() const { return heard_; }
+  void forget_heard() { heard_.clear(); }
+
+ private:
+  bool apply(peer::PeerNumber from, const ToldOf& told, double time);
+
+  std::vector<Belief> beliefs_;  ///< by body
+  bool has_trajectories_;
+  Drag drag_;
+  std::vector<physics::BodyKind> kinds_;
+  std::uint32_t felt_ = 0;
+  std::vector<Heard> heard_;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,17 @@
+// What peers' messages are about, for whoever sends, reads or counts them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace rink::game {
+
+/// `halo`: states that are handed over at a window's end. `claims`, `agreement`: what proves a window, and the verdicts on it. `interest`: where players look. `updates`: what they
+/// are told of bodies beyond the halo. `keys`: key presses on their way to the bat's owner, and how many it has felt.
+enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys };
+inline constexpr std::size_t traffic_count = 6;
+inline constexpr std::array<const char*, traffic_count> traffic_names{"halo", "claims", "agreement", "interest", "updates", "keys"};
+
+using TrafficBytes = std::array<std::uint64_t, traffic_count>;
+
+}  // namespace rink::game

@@ -1,0 +1,83 @@
+// The steps of play_window, each begun when something from everybody is there.
+#include "game/peer/window_play.h"
+
+#include <cassert>
+#include <utility>
+
+namespace rink::peer {
+
+template <class Make>
+void WindowPlay::say_to_all(Subject about, Make&& make) {
+  for (PeerNumber to = 0; to < peer_count_; ++to)
+    if (to != peer_.number()) say_(to, about, written(make(to)));
+}
+
+template <class Message>
+void WindowPlay::take_from_all() {
+  for (PeerNumber from = 0; from < peer_count_; ++from) {
+    if (from == peer_.number()) continue;
+    Message message;
+    if (!read(inboxes_[from].front(), message)) throw ProtocolError("peer " + std::to_string(from) + " sent what is no message");
+    inboxes_[from].pop_front();
+    heard_ -= inboxes_[from].empty();
+    peer_.hear(from, std::move(message));
+  }
+  if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
+}
+
+void WindowPlay::begin(double next) {
+  assert(!is_playing());
+  next_ = next;
+  peer_.play();
+  say_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
+  step_ = Step::claims;
+  go_on();
+}
+
+void WindowPlay::hear(PeerNumber from, std::vector<std::uint8_t> bytes) {
+  heard_ += inboxes_[from].empty();
+  inboxes_[from].push_back(std::move(bytes));
+  go_on();
+}
+
+void WindowPlay::go_on() {
+  while (is_playing() && heard_ + 1 == peer_count_) advance();
+}
+
+void WindowPlay::advance() {
+  switch (step_) {
+    case Step::resting: return;
+    case Step::claims:
+      take_from_all<Claims>();
+      peer_.judge();
+      if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
+      say_to_all(Subject::verdict, [&](PeerNumber) { return peer_.verdict(); });
+      step_ = Step::verdicts;
+      return;
+    case Step::verdicts:
+      take_from_all<Verdict>();
+      if (peer_.conclude() == Outcome::final) {
+        say_to_all(Subject::arrivals, [&](PeerNumber to) { return peer_.arrivals_for(to, next_); });
+        step_ = Step::arrivals;
+        if (on_final) on_final();
+      } else {
+        say_to_all(Subject::arrivals, [&](PeerNumber to) { return peer_.repeats(to) ? peer_.arrivals_for_repeat(to) : Arrivals{}; });
+        step_ = Step::repeats;
+      }
+      return;
+    case Step::repeats:
+      take_from_all<Arrivals>();
+      if (peer_.repeats(peer_.number())) peer_.replay();
+      say_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
+      step_ = Step::claims;
+      return;
+    case Step::arrivals:
+      take_from_all<Arrivals>();
+      peer_.commit(next_);
+      step_ = Step::resting;
+      if (on_commit) on_commit();
+      return;
+  }
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,52 @@
+// One peer's side of a window for who must not wait: told what came, it goes on as far as that reaches.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "game/peer/protocol.h"
+
+namespace rink::peer {
+
+/// What a message of the protocol is about, for who counts them.
+enum class Subject : std::uint8_t { claims, verdict, arrivals };
+
+/// play_window without waiting. Messages come whole and in order from each peer, from one that is ahead also those of the next window.
+class WindowPlay {
+ public:
+  using Say = std::function<void(PeerNumber to, Subject about, std::vector<std::uint8_t> bytes)>;
+  /// `peer` and what `say` needs must outlive it.
+  WindowPlay(Peer& peer, PeerNumber peer_count, Say say) : peer_(peer), peer_count_(peer_count), say_(std::move(say)), inboxes_(peer_count) {}
+
+  /// Called when all have accepted, before anything is handed over: what the peer's own bodies are now is final.
+  std::function<void()> on_final;
+  /// Called when the next window is prepared.
+  std::function<void()> on_commit;
+
+  bool is_playing() const { return step_ != Step::resting; }
+  /// Plays the window that is prepared (only if none is being played), and prepares the next, which ends at `next` [s], once it is final. Throws ProtocolError, as `hear` does.
+  void begin(double next);
+  void hear(PeerNumber from, std::vector<std::uint8_t> bytes);
+
+ private:
+  enum class Step : std::uint8_t { resting, claims, verdicts, repeats, arrivals };
+
+  template <class Make>
+  void say_to_all(Subject about, Make&& make);
+  template <class Message>
+  void take_from_all();
+  void go_on();
+  void advance();
+
+  Peer& peer_;
+  PeerNumber peer_count_;
+  Say say_;
+  std::vector<std::deque<std::vector<std::uint8_t>>> inboxes_;  ///< by peer
+  PeerNumber heard_ = 0;                                        ///< how many of them hold something
+  Step step_ = Step::resting;
+  double next_ = 0.0;
+};
+
+}  // namespace rink::peer
