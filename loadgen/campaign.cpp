@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "loadgen/peer_run.h"
 #include "loadgen/virtual_run.h"
 
 namespace rink::loadgen {
@@ -49,7 +50,7 @@ Outcome run_campaign(const Experiment& experiment, const RunnerSettings& setting
       if (has_run_of(cell, before)) continue;
       progress.starts(cell);
       const auto start = Clock::now();
-      const auto run = experiment.transport == TransportKind::virtual_time ? run_virtual_cell : run_cell;
+      const auto run = experiment.transport != TransportKind::virtual_time ? run_cell : cell.mode == peer_mode ? run_virtual_peers : run_virtual_cell;
       const auto record = run(settings, experiment, cell, key_logs.at(game_of(cell, experiment.population)));
       if (!record) {
         outcome.was_interrupted = true;

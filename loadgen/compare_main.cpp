@@ -14,6 +14,7 @@
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/growth.h"
+#include "loadgen/modes_table.h"
 #include "loadgen/open_files.h"
 #include "loadgen/plan_text.h"
 #include "loadgen/process.h"
@@ -191,7 +192,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
     if (outcome.output_failure.empty()) outcome.output_failure = failure;
     const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
     std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(outcome.runs, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
-    if (!options.saturate.is_wanted) std::cout << growth_table(growths_of(outcome.runs)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
+    if (!options.saturate.is_wanted) std::cout << modes_table(outcome.runs) << growth_table(growths_of(outcome.runs)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {
     std::cerr << "rink-compare: interrupted; kept " << outcome.runs.size() << (options.saturate.is_wanted ? "" : " of " + std::to_string(cells_of(experiment).size())) << " runs\n";

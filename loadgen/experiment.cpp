@@ -66,6 +66,19 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
   read("baseline_policy", result.baseline_policy, result.policies);
 }
 
+/// What peers do not do, so that nobody waits for cells that cannot run.
+void expect_what_peers_can(const Experiment& experiment, const std::string& file) {
+  const auto has = [](const auto& list, const auto& value) { return std::find(list.begin(), list.end(), value) != list.end(); };
+  if (!has(experiment.modes, peer_mode)) return;
+  const auto refuse = [&file](const std::string& what) { throw ExperimentError(file + ": modes = " + peer_mode + " " + what); };
+  if (experiment.transport != TransportKind::virtual_time) refuse(std::string("needs transport = \"virtual\", not \"") + to_string(experiment.transport) + "\"");
+  if (experiment.keys != KeySource::replay) refuse("needs keys = \"replay\", which all peers know");
+  if (has(experiment.policies, std::string("snapshot"))) refuse("knows the policies periodic and on-event, not snapshot");
+  if (experiment.sweep_ticks != std::vector<std::uint32_t>{0}) refuse("sweeps no regions: expected sweep_ticks = 0");
+  if (experiment.server_cores != std::vector<std::uint32_t>{1}) refuse("has no server: expected server_cores = 1");
+  if (experiment.network_carries_datagrams) refuse("sends no datagrams: expected a [network] without them");
+}
+
 }  // namespace
 
 const char* to_string(TransportKind kind) {
@@ -103,6 +116,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   read_baseline(reader, result);
   read_network(reader, result);
   reader.refuse_the_rest();
+  expect_what_peers_can(result, file.string());
   return result;
 }
 

@@ -55,6 +55,8 @@ void write_game_plan(const Experiment& experiment, const Cell& cell, const std::
   try {
     const game::Scene scene = scene_of(experiment, cell);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
+    if (scene.world.field.goal_width > 0.0 && std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end())
+      throw ExperimentError("experiment " + experiment.name + ": modes = " + peer_mode + ": scene " + experiment.scene + " has goals, which peers cannot share; allowed is one without, such as arena");
     log = game::key_log_for(scene);
     log.events = keys_of(experiment, cell, scene);
   } catch (const game::SceneError& error) {

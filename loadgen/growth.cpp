@@ -147,6 +147,7 @@ std::string growth_table(std::span<const Growth> growths) {
       const auto growth = std::find_if(growths.begin(), growths.end(), [&](const Growth& other) { return is_same_row(row, other) && other.figure == quantity.name; });
       text += " " + (growth == growths.end() ? std::string(11, ' ') + "- " : exponent_text(growth->fit));
     }
+    if (row.mode != growths.front().mode) text += "  " + row.mode;
   }
   return text + "\n!: not a power law: the means bend by more than 10 % and more than the replications explain; local exponents are in growth.csv\n";
 }

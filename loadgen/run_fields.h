@@ -79,6 +79,16 @@ void visit_fields(Line& line, Record& run) {
   line.field("view_area", run.view_area);
   line.field("view_margin", run.cell.parameters.view_margin);
   line.field("sweep_ticks", run.cell.parameters.sweep_ticks);
+  line.field("halo_bytes_per_client_per_s", run.traffic.halo);
+  line.field("claims_bytes_per_client_per_s", run.traffic.claims);
+  line.field("agreement_bytes_per_client_per_s", run.traffic.agreement);
+  line.field("interest_bytes_per_client_per_s", run.traffic.interest);
+  line.field("updates_bytes_per_client_per_s", run.traffic.updates);
+  line.field("keys_bytes_per_client_per_s", run.traffic.keys);
+  line.field("busiest_node_bytes_per_s", run.nodes.busiest_bytes_per_s);
+  line.field("busiest_node_events_per_s", run.nodes.busiest_events_per_s);
+  line.field("busiest_node_cpu_s", run.nodes.busiest_cpu_s);
+  line.field("mean_node_cpu_s", run.nodes.mean_cpu_s);
 }
 
 }  // namespace rink::loadgen

@@ -147,6 +147,24 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
   if (segments_down_per_s && segments_up_per_s) record.segments_per_s = *segments_down_per_s + *segments_up_per_s;
 }
 
+/// A server's node is the server, through which everything goes; peers say what the busiest of them bore.
+void fill_nodes(RunRecord& record, ReportReader& server) {
+  const bool are_peers = record.cell.mode == peer_mode;
+  const auto down = server.number_if_there("bytes_sent"), up = server.number_if_there("bytes_received");
+  const auto rate = [&](std::optional<double> bytes) { return per(per(bytes, record.measured_s), record.cell.clients); };
+  if (are_peers) {
+    record.traffic = {rate(server.number_if_there("halo_bytes")),     rate(server.number_if_there("claims_bytes")),  rate(server.number_if_there("agreement_bytes")),
+                      rate(server.number_if_there("interest_bytes")), rate(server.number_if_there("updates_bytes")), rate(server.number_if_there("keys_bytes"))};
+    record.nodes.busiest_bytes_per_s = per(server.number_if_there("busiest_node_bytes"), record.measured_s);
+  } else {
+    const auto states = server.number_if_there("state_bytes_sent"), keys = server.number_if_there("key_bytes_received");
+    record.traffic.updates = rate(states), record.traffic.keys = rate(keys);
+    if (down && up && states && keys) record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
+    if (down && up) record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
+  }
+  record.nodes.busiest_events_per_s = per(server.number_if_there(are_peers ? "busiest_node_events" : "physics_events"), record.measured_s);
+}
+
 void fill_from_bots(RunRecord& record, ReportReader& bots) {
   record.update_age_ms = bots.percentiles("update_age_ms");
   record.key_to_effect_ms = bots.percentiles("key_to_effect_ms");
@@ -232,6 +250,7 @@ void judge(RunRecord& record, const nlohmann::json& server_report, const nlohman
   ReportReader server(server_report, "server", !has_kernel_counts, complaints), bots(bots_report, "bots", !has_kernel_counts, complaints);
   fill_from_server(record, server);
   fill_bytes(record, server, bots);
+  fill_nodes(record, server);
   fill_from_bots(record, bots);
   check(record, server, bots, complaints);
   std::vector<std::string> once;

@@ -30,6 +30,18 @@ struct TruthFigures {
   std::string trouble;    ///< why the figures are absent; empty if they are not, or if no evidence was taken
 };
 
+/// What was carried, by what it was about, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
+struct TrafficFigures {
+  std::optional<double> halo, claims, agreement, interest, updates, keys;
+};
+
+/// What the busiest node bears: the server, or one of the peers.
+struct NodeFigures {
+  std::optional<double> busiest_bytes_per_s;   ///< sent and received
+  std::optional<double> busiest_events_per_s;  ///< of physics, those of ghosts alone included
+  std::optional<double> busiest_cpu_s, mean_cpu_s;  ///< processor time from start to end; the mean is over all nodes: server and clients, or peers
+};
+
 /// How the load generator itself fared.
 struct GeneratorHealth {
   std::optional<double> bots_cpu_share;           ///< processor time of the bots / (wall time x processors they may use)
@@ -60,6 +72,8 @@ struct RunRecord {
   std::optional<double> server_cpu_s, bots_cpu_s;  ///< processor time of each process from start to end
   Percentiles tick_us;     ///< wall time of whole ticks
   TruthFigures truth;
+  TrafficFigures traffic;
+  NodeFigures nodes;
   GeneratorHealth health;
   std::string transport, players;
   double delay_ms = 0.0, view_area = 0.0;

@@ -79,6 +79,16 @@ constexpr std::array all_figures{
     Figure{"tick_us_p99", [](const RunRecord& run) { return run.tick_us.p99; }},
     Figure{"tick_us_p999", [](const RunRecord& run) { return run.tick_us.p999; }},
     Figure{"tick_us_max", [](const RunRecord& run) { return run.tick_us.max; }},
+    Figure{"halo_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.halo; }},
+    Figure{"claims_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.claims; }},
+    Figure{"agreement_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.agreement; }},
+    Figure{"interest_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.interest; }},
+    Figure{"updates_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.updates; }},
+    Figure{"keys_bytes_per_client_per_s", [](const RunRecord& run) { return run.traffic.keys; }},
+    Figure{"busiest_node_bytes_per_s", [](const RunRecord& run) { return run.nodes.busiest_bytes_per_s; }},
+    Figure{"busiest_node_events_per_s", [](const RunRecord& run) { return run.nodes.busiest_events_per_s; }},
+    Figure{"busiest_node_cpu_s", [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
+    Figure{"mean_node_cpu_s", [](const RunRecord& run) { return run.nodes.mean_cpu_s; }},
 };
 
 Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>& valid_runs) {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "game/control/key_log.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
 #include "game/replication/trajectory_codec.h"
@@ -20,7 +19,7 @@
 #include "loadgen/game_plan.h"
 #include "loadgen/results.h"
 #include "loadgen/truth/truth.h"
-#include "rti/transport/network_model.h"
+#include "loadgen/virtual_parts.h"
 #include "rti/transport/virtual_network.h"
 
 namespace rink::loadgen {
@@ -28,17 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr const char* server_name = "server";
-
-std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
-
-/// The first whole nanosecond that is not before `instant_s` on a clock that shows 1e-9 times its nanoseconds.
-std::int64_t not_before(double instant_s) {
-  auto instant_ns = static_cast<std::int64_t>(std::floor(1e9 * instant_s)) - 1;
-  while (1e-9 * static_cast<double>(instant_ns) < instant_s) ++instant_ns;
-  return instant_ns;
-}
 
 struct Interrupted {};
 /// A run that cannot go on; `why` becomes the record's reason.
@@ -60,8 +49,6 @@ class VirtualRun {
 
  private:
   static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys);
-  static rti::NetworkConditions network_conditions(const Experiment& experiment, const Cell& cell);
-  std::int64_t settling_ns() const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
@@ -94,24 +81,6 @@ game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, c
   game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
   return settings;
-}
-
-/// Each replication meets fates of its own. Cuts count from the start, which is not known yet.
-rti::NetworkConditions VirtualRun::network_conditions(const Experiment& experiment, const Cell& cell) {
-  rti::NetworkConditions conditions = experiment.network;
-  if (!experiment.network_is_modelled) conditions.to_listener.latency_ns = conditions.from_listener.latency_ns = nanoseconds(1e-3 * experiment.delay_ms);
-  conditions.seed = rti::LinkStream::key_of(conditions.seed, cell.seed);
-  conditions.partitions.clear();
-  return conditions;
-}
-
-/// What one packet may take, once or twice lost, the wait for others apart. Nobody speaks meanwhile at the end, so four of these must stay below the RTI's patience.
-std::int64_t VirtualRun::settling_ns() const {
-  const rti::NetworkConditions& network = experiment_.network;
-  const std::int64_t delay_ns = nanoseconds(1e-3 * experiment_.delay_ms);
-  if (!experiment_.network_is_modelled) return delay_ns;
-  const std::int64_t longest_ns = std::max({delay_ns, network.to_listener.longest_ns(), network.from_listener.longest_ns()});
-  return std::max(delay_ns, std::min(longest_ns + 2 * rti::NetworkModel::timeout_min_ns, second_ns));
 }
 
 BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const Cell& cell) {
@@ -169,7 +138,7 @@ template <class Condition>
 void VirtualRun::await(const std::string& what, Condition is_met) {
   constexpr std::int64_t steps_max = 64;
   const std::int64_t step_ns = nanoseconds(1.0 / cell_.parameters.tick_rate_hz);
-  const std::int64_t limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns() + (experiment_.network_is_modelled ? second_ns : 0));
+  const std::int64_t limit_ns = network_.now_ns() + steps_max * (step_ns + settling_ns(experiment_) + (experiment_.network_is_modelled ? second_ns : 0));
   game::TickCosts uncounted;
   while (!is_met()) {
     heed_interrupt();
@@ -214,7 +183,7 @@ void VirtualRun::play() {
   }
   end_ = counts_of(serving_, server_end_.totals());
   measured_until_ns_ = network_.now_ns();
-  advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns() + 1);  // the last answers
+  advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns(experiment_) + 1);  // the last answers
 }
 
 void VirtualRun::run() {
@@ -270,21 +239,8 @@ void VirtualRun::write_evidence(const std::string& server_file, const std::strin
 
 void VirtualRun::end(Json& server_report) {
   crowd_.resign();
-  advance_until(network_.now_ns() + 2 * settling_ns());
+  advance_until(network_.now_ns() + 2 * settling_ns(experiment_));
   game::add_totals(server_report, server_end_.totals());
-}
-
-void write_json(const std::filesystem::path& file, const Json& content) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << content.dump(2) << '\n' << std::flush;
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
-}
-
-std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log, const game::Scene& scene) {
-  if (key_log.empty()) return {};
-  game::KeyLog log = game::read_key_log(key_log);
-  game::require_fit(log, scene, key_log);
-  return std::move(log.events);
 }
 
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {

@@ -49,6 +49,8 @@ void append_interval(std::vector<std::string>& row, const std::optional<MeanInte
 
 /// Bytes against clients.
 Exhibit traffic_exhibit(const Findings& findings);
+/// What each node bears with a server and without, and what its bytes are about.
+Exhibit modes_exhibit(const Findings& findings);
 /// Bytes against error, and what filter and policy gain.
 Exhibit gains_exhibit(const Findings& findings);
 /// Precision against recall.

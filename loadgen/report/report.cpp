@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "loadgen/modes_table.h"
 #include "loadgen/report/gains.h"
 #include "loadgen/report/page.h"
 #include "loadgen/report/text.h"
@@ -94,6 +95,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   const Findings findings{experiment, runs, latencies, lines_of(runs), relevance_of(runs)};
   Page page;
   page.add("traffic", "Traffic", traffic_exhibit(findings));
+  if (has_several_modes(runs)) page.add("modes", "With and without a server", modes_exhibit(findings));
   page.add("gains", "Bytes against error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
   page.add("sweeps", "Parameters", sweep_exhibit(findings));

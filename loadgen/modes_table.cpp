@@ -1,0 +1,58 @@
+// Columns for the modes.
+#include "loadgen/modes_table.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "loadgen/summary.h"
+
+namespace rink::loadgen {
+namespace {
+
+struct Column {
+  const char* title;
+  const char* figure;
+  double scale;
+};
+
+constexpr Column columns[] = {{"halo", "halo_bytes_per_client_per_s", 1e-3},         {"claims", "claims_bytes_per_client_per_s", 1e-3},   {"agree", "agreement_bytes_per_client_per_s", 1e-3},
+                              {"inter.", "interest_bytes_per_client_per_s", 1e-3},   {"update", "updates_bytes_per_client_per_s", 1e-3},  {"keys", "keys_bytes_per_client_per_s", 1e-3},
+                              {"down", "down_bytes_per_client_per_s", 1e-3},         {"up", "up_bytes_per_client_per_s", 1e-3},           {"wire", "wire_bytes_per_client_per_s", 1e-3},
+                              {"busiest", "busiest_node_bytes_per_s", 1e-3},         {"events", "busiest_node_events_per_s", 1.0},        {"cpu s", "busiest_node_cpu_s", 1.0},
+                              {"mean", "mean_node_cpu_s", 1.0},                      {"effect", "key_to_effect_ms_p50", 1.0}};
+
+std::string shown(const std::optional<double>& value, double scale) {
+  if (!value) return "-";
+  char text[32];
+  const double scaled = *value * scale;
+  std::snprintf(text, sizeof text, "%.*f", scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2, scaled);
+  return text;
+}
+
+std::string padded(const std::string& text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
+
+}  // namespace
+
+bool has_several_modes(std::span<const RunRecord> runs) {
+  return std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.cell.mode != runs.front().cell.mode; });
+}
+
+std::string modes_table(std::span<const RunRecord> runs) {
+  if (!has_several_modes(runs)) return {};
+  std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s both ways,\n"
+                     "events/s and processor time, the mean node's; and a key's effect, ms\n";
+  text += "clients scheme  policy    mode         ";
+  for (const Column& column : columns) text += " " + padded(column.title, 7);
+  std::vector<SummaryRow> rows = summarise(runs);
+  std::stable_sort(rows.begin(), rows.end(), [](const SummaryRow& a, const SummaryRow& b) { return a.clients < b.clients; });
+  for (const SummaryRow& row : rows) {
+    char head[64];
+    std::snprintf(head, sizeof head, "\n%7u %-7.7s %-9.9s %-13.13s", row.clients, row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
+    text += head;
+    for (const Column& column : columns) text += " " + padded(shown(row.of(column.figure).mean, column.scale), 7);
+  }
+  return text + "\n";
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,100 @@
+// Sums over peers as JSON.
+#include "loadgen/peer_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "loadgen/peer_station.h"
+
+namespace rink::loadgen {
+
+using Json = nlohmann::ordered_json;
+
+void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters& counters) {
+  for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k], messages += node.messages_sent()[k];
+  bytes += counters.bytes_sent, writes += counters.writes, segments += counters.segments_sent;
+  sent.push_back(counters.bytes_sent);
+  const peer::PeerCounters& played = node.peer().counters();
+  events.push_back(played.own_events + played.ghost_events);
+  received.push_back(counters.bytes_received);
+}
+
+TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
+  for (std::size_t k = 0; k < game::traffic_count; ++k) a.by_subject[k] -= b.by_subject[k];
+  a.messages -= b.messages, a.bytes -= b.bytes, a.writes -= b.writes, a.segments -= b.segments;
+  for (std::size_t k = 0; k < b.sent.size(); ++k) a.sent[k] -= b.sent[k], a.received[k] -= b.received[k], a.events[k] -= b.events[k];
+  return a;
+}
+
+Json peers_report(const Experiment& experiment, const Cell& cell, const PeerTotals& totals) {
+  using game::Traffic;
+  const TrafficTotals& measured = totals.measured;
+  const auto of = [&](Traffic about) { return measured.by_subject[static_cast<std::size_t>(about)]; };
+  std::uint64_t busiest = 0;
+  for (std::size_t k = 0; k < measured.sent.size(); ++k) busiest = std::max(busiest, measured.sent[k] + measured.received[k]);
+  Json report{{"mode", cell.mode},
+          {"scheme", cell.scheme},
+          {"policy", cell.policy},
+          {"clients", cell.clients},
+          {"seed", cell.seed},
+          {"tick_rate_hz", cell.parameters.tick_rate_hz},
+          {"ticks", totals.windows},
+          {"ticks_on_time_fraction", nullptr},
+          {"physics_us_per_tick", nullptr},
+          {"filter_us_per_tick", nullptr},
+          {"send_us_per_tick", nullptr},
+          {"server_rss_bytes", nullptr},
+          {"measured_s", totals.measured_s},
+          {"valid", totals.windows > 0},
+          {"why_invalid", totals.windows > 0 ? "" : "no window was measured"},
+          {"entities", totals.entities},
+          {"state_hash", totals.state_hash},
+          {"bytes_sent", measured.bytes},
+          {"bytes_received", measured.bytes},
+          {"writes_sent", measured.writes},
+          {"segments_sent", measured.segments},
+          {"state_bytes_sent", 2 * (of(Traffic::halo) + of(Traffic::updates))},  // each byte goes both down and up
+          {"key_bytes_received", 2 * of(Traffic::keys)},
+          {"messages_sent", measured.messages},
+          {"busiest_node_bytes", busiest},
+          {"busiest_node_events", measured.events.empty() ? 0 : *std::max_element(measured.events.begin(), measured.events.end())},
+          {"windows", totals.windows},
+          {"repeated_windows", totals.counters.repeats},
+          {"own_events", totals.counters.own_events},
+          {"ghost_events", totals.counters.ghost_events},
+          {"hand_overs", totals.counters.hand_overs},
+          {"mean_ghosts", static_cast<double>(totals.counters.ghost_windows) / static_cast<double>(std::max<std::uint64_t>(1, totals.counters.windows))},
+          {"lost_federates", 0},
+          {"dropped_connections", 0},
+          {"total_bytes_sent", totals.whole.bytes},
+          {"total_bytes_received", totals.whole.bytes},
+          {"kernel_bytes_sent", nullptr},
+          {"kernel_bytes_received", nullptr}};
+  for (std::size_t k = 0; k < game::traffic_count; ++k) report[std::string(game::traffic_names[k]) + "_bytes"] = measured.by_subject[k];
+  return report;
+}
+
+Json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured) {
+  return {{"clients", cell.clients},
+          {"measured_s", totals.measured_s},
+          {"bytes_received", totals.measured.bytes},
+          {"bytes_sent", totals.measured.bytes},
+          {"segments_sent", totals.measured.segments},
+          {"update_age_ms", measured.update_age.to_json()},
+          {"key_to_effect_ms", measured.key_to_effect.to_json()},
+          {"keys_due", measured.keys_due},
+          {"keys_sent", measured.keys_sent},
+          {"keys_unanswered", totals.keys_unanswered},
+          {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
+          {"send_lateness_ms", measured.send_lateness.to_json()},
+          {"federates_lost", 0},
+          {"bytes_received_by_bot", totals.measured.received},
+          {"total_bytes_received", totals.whole.bytes},
+          {"total_bytes_sent", totals.whole.bytes},
+          {"kernel_bytes_received", nullptr},
+          {"kernel_bytes_sent", nullptr},
+          {"valid", true},
+          {"why_invalid", ""}};
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,40 @@
+// What peers counted, under the names by which the reports of a server and its bots say the same.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "game/net/peer/peer_node.h"
+#include "loadgen/experiment.h"
+#include "loadgen/probe.h"
+#include "rti/transport/transport.h"
+
+namespace rink::loadgen {
+
+/// What all peers sent, and each carried, since their start or within a span.
+struct TrafficTotals {
+  game::TrafficBytes by_subject{};  ///< with frames
+  std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0;
+  std::vector<std::uint64_t> sent, received;  ///< bytes by peer
+  std::vector<std::uint64_t> events;          ///< likewise, of physics
+
+  /// The next peer's.
+  void add(const game::PeerNode& node, const rti::TransportCounters& counters);
+};
+TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b);
+
+struct PeerTotals {
+  TrafficTotals measured, whole;
+  double measured_s = 0.0;
+  std::uint64_t windows = 0, entities = 0, keys_unanswered = 0;
+  peer::PeerCounters counters;  ///< of all peers, from start to end
+  std::string state_hash;
+};
+
+/// As a server's and as its bots': what is sent counts as what goes down, and what is received as what goes up, of which there is as much.
+nlohmann::ordered_json peers_report(const Experiment& experiment, const Cell& cell, const PeerTotals& totals);
+nlohmann::ordered_json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured);
+
+}  // namespace rink::loadgen

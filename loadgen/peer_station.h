@@ -1,0 +1,77 @@
+// One peer of a run, with its player: frames to and from the others, and what is measured of it. No clock, no connection of its own.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "game/net/evidence.h"
+#include "game/net/peer/frames.h"
+#include "game/net/peer/peer_node.h"
+#include "game/net/sampling.h"
+#include "loadgen/bots_evidence.h"
+#include "loadgen/probe.h"
+
+namespace rink::loadgen {
+
+/// Bytes around each message: a frame's head, and what it is about.
+inline constexpr std::size_t peer_message_head = game::frame_head + 1;
+
+/// The clock of a run: simulated time is that since its start. All in seconds.
+struct RunClock {
+  double now_s = 0.0, start_s = 0.0;
+  double simulated_s() const { return now_s - start_s; }
+};
+
+/// What a watched peer says of its own player.
+struct StationEvidence {
+  BotsEvidence::Bot bot;
+  std::vector<BotsEvidence::Sample> samples;  ///< `bot` in them is not set; `first` and `last` are in `beliefs`
+  std::vector<BotsEvidence::Belief> beliefs;
+};
+
+class PeerStation {
+ public:
+  /// `clock` must outlive the station, as must `measurements`, which may be shared.
+  PeerStation(const game::SharedGame& game, const game::NodeSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock, Measurements& measurements);
+
+  /// Keeps evidence of what the player was told and believes.
+  void watch();
+
+  void due() { node_.due(); }
+  /// The player's key that was due at simulated `instant` [s].
+  void press(double instant);
+  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer says.
+  void hear(peer::PeerNumber from, rti::Bytes bytes);
+  /// What is to be sent to `to`; the caller takes it.
+  std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
+  /// Takes a sample of what the player believes now.
+  void sample();
+
+  game::PeerNode& node() { return node_; }
+  const game::PeerNode& node() const { return node_; }
+  const Probe& probe() const { return probe_; }
+  const std::optional<StationEvidence>& evidence() const { return evidence_; }
+
+ private:
+  void note_commit();
+  void note_scope();
+
+  const RunClock& clock_;
+  Measurements& measurements_;
+  double rate_hz_;
+  std::vector<game::FrameReader> readers_;            ///< by peer
+  std::vector<std::vector<std::uint8_t>> outboxes_;   ///< likewise
+  Probe probe_;
+  game::PeerNode node_;
+  std::optional<StationEvidence> evidence_;
+  double matched_s_ = -1.0;                           ///< the end of the last window of which all is known here
+  std::vector<std::uint32_t> scope_, listed_;
+  std::vector<physics::Vector2> matched_;             ///< by body in scope then
+  std::vector<std::pair<double, game::PlayerPicture::Heard>> received_;
+};
+
+}  // namespace rink::loadgen
