@@ -93,7 +93,7 @@ struct Verdict {
   /// Of each event of its run, in which of 256 equal parts of the window it came, so that events of many peers are not taken for simultaneous; none if they are more than
   /// `listed_max`, or if there are so few peers that it does not matter.
   static constexpr std::size_t listed_max = 64;
-  std::vector<std::uint8_t> listed;
+  std::vector<std::uint8_t> listed{};
 };
 
 template <class Stream>

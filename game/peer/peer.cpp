@@ -46,8 +46,8 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       is_edge_(body_count, 0),
       owners_(body_count, 0),
       known_(division.peer_count()),
-      presses_(division.peer_count()),
       coming_(division.peer_count()),
+      presses_(division.peer_count()),
       claims_(division.peer_count()),
       verdicts_(division.peer_count()),
       arrivals_(division.peer_count()) {
