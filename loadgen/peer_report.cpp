@@ -39,7 +39,7 @@ Json peers_report(const Experiment& experiment, const Cell& cell, const PeerTota
           {"seed", cell.seed},
           {"tick_rate_hz", cell.parameters.tick_rate_hz},
           {"ticks", totals.windows},
-          {"ticks_on_time_fraction", nullptr},
+          {"ticks_on_time_fraction", totals.known == 0 ? Json(nullptr) : Json(static_cast<double>(totals.on_time) / static_cast<double>(totals.known))},
           {"physics_us_per_tick", nullptr},
           {"filter_us_per_tick", nullptr},
           {"send_us_per_tick", nullptr},

@@ -29,6 +29,7 @@ struct PeerTotals {
   TrafficTotals measured, whole;
   double measured_s = 0.0;
   std::uint64_t windows = 0, entities = 0, keys_unanswered = 0;
+  std::uint64_t known = 0, on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
   peer::PeerCounters counters;  ///< of all peers, from start to end
   std::string state_hash;
 };

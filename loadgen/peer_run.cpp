@@ -306,6 +306,7 @@ PeerTotals PeerRun::totals() const {
   for (const PeerStation& station : stations_) {
     totals.counters += station.node().peer().counters();
     totals.keys_unanswered += station.probe().unanswered();
+    totals.known += station.windows_known(), totals.on_time += station.windows_on_time();
   }
   return totals;
 }

@@ -59,6 +59,9 @@ void PeerStation::note_commit() {
   const double simulated_s = node_.windows_final() / rate_hz_;
   probe_.batch_applied(clock_.start_s + simulated_s, clock_.now_s, node_.felt(), measurements_.is_counted(simulated_s));
   matched_s_ = simulated_s;
+  constexpr double rounding_s = 1e-9;
+  known_ += measurements_.is_counted(simulated_s);
+  on_time_ += measurements_.is_counted(simulated_s) && clock_.simulated_s() <= simulated_s + 1.0 / rate_hz_ + rounding_s;
   if (evidence_) note_scope();
 }
 

@@ -54,6 +54,9 @@ class PeerStation {
   game::PeerNode& node() { return node_; }
   const game::PeerNode& node() const { return node_; }
   const Probe& probe() const { return probe_; }
+  /// Measured windows of which all was known here, and those of them that were before the next one's end.
+  std::uint64_t windows_known() const { return known_; }
+  std::uint64_t windows_on_time() const { return on_time_; }
   const std::optional<StationEvidence>& evidence() const { return evidence_; }
 
  private:
@@ -68,6 +71,7 @@ class PeerStation {
   Probe probe_;
   game::PeerNode node_;
   std::optional<StationEvidence> evidence_;
+  std::uint64_t known_ = 0, on_time_ = 0;
   double matched_s_ = -1.0;                           ///< the end of the last window of which all is known here
   std::vector<std::uint32_t> scope_, listed_;
   std::vector<physics::Vector2> matched_;             ///< by body in scope then

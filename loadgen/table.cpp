@@ -125,7 +125,7 @@ std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& base
     const auto none = row_of(baseline_of(row, baseline.scheme, baseline.policy));
     if (filter == rows.end() || policy == rows.end()) continue;
     const std::string variant = variant_of(row);
-    text += formatted("%u clients, %.20s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + ": " +
+    text += formatted("%u clients, %.20s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + (row.mode == rows.front().mode ? "" : ", " + row.mode) + ": " +
             times_less(row.ratio(payload)) + " times less payload\n";
     text += "        filter alone " + times_less(filter->ratio(payload)) + ", policy alone " + times_less(policy->ratio(payload)) + "; displayed error " +
             shown(row.of(error).mean) + " mm beside " + shown(none->of(error).mean) + " mm\n";

@@ -71,6 +71,7 @@ TEST_F(PeerRunTest, AWindowIsThreeDelaysOldWhenItIsKnown) {
     ASSERT_TRUE(record.update_age_ms.p50);
     EXPECT_NEAR(*record.update_age_ms.p50, 3.0 * delay_ms, 1e-3 * 3.0 * delay_ms);
     EXPECT_NEAR(*record.update_age_ms.max, 3.0 * delay_ms, 1e-3 * 3.0 * delay_ms);
+    EXPECT_EQ(record.ticks_on_time_fraction, 1.0);
     // Half a window on average until it ends, and two delays until all have agreed, for a bat that is the peer's own.
     EXPECT_GE(*record.key_to_effect_ms.p50, 2.0 * delay_ms);
     EXPECT_LE(*record.key_to_effect_ms.p50, 50.0 + 4.0 * delay_ms);
@@ -85,6 +86,18 @@ TEST_F(PeerRunTest, WhenAgreementTakesLongerThanAWindowItFallsBehindAndPlaysTheS
   EXPECT_EQ(record.state_hash, hash);
   // Window k ends at 50 k ms, and is known 75 ms after the one before it is; the last that counts is the 49th.
   EXPECT_NEAR(*record.update_age_ms.max, 50.0 + 25.0 * 49, 1.0);
+  EXPECT_EQ(record.ticks_on_time_fraction, 0.0);
+}
+
+/// Each segment that is lost holds everybody up.
+TEST_F(PeerRunTest, OverALossyNetworkItIsLateAndTheSameGame) {
+  const Cell cell = cells_of(experiment_).back();
+  const std::string hash = run(cell).state_hash;
+  experiment_.network_is_modelled = true;
+  for (rti::LinkConditions* link : {&experiment_.network.to_listener, &experiment_.network.from_listener}) link->latency_ns = 5'000'000, link->loss = rti::PacketLoss::independent(0.002);
+  const RunRecord record = run(cell);
+  EXPECT_EQ(record.state_hash, hash);
+  EXPECT_LT(*record.ticks_on_time_fraction, 0.9);
 }
 
 TEST_F(PeerRunTest, EveryByteIsAboutSomethingAndOnlyWhoFiltersSaysWhereItLooks) {
