@@ -25,11 +25,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Interrupted {};
-struct Failure {
-  std::string why;
-};
-
 /// A station at its end of the network, with a connection to each other one. Who connects says its number first.
 class NetworkedStation : private rti::TransportListener {
  public:
@@ -343,7 +338,11 @@ void PeerRun::write_evidence(const std::string& server_file, const std::string& 
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
   const game::Scene scene = scene_of(experiment, cell);
   PeerRun run(settings, experiment, cell, scene, keys_in(key_log, scene));
-  run.run();
+  try {
+    run.run();
+  } catch (const peer::ProtocolError& error) {
+    throw Failure{error.what()};
+  }
   const PeerTotals totals = run.totals();
   const Json peers = peers_report(experiment, cell, totals), bots = players_report(cell, totals, run.measurements());
   const std::string name = name_of(cell);
@@ -358,19 +357,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
 }  // namespace
 
 std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  RunRecord record = record_for(experiment, cell);
-  try {
-    run(settings, experiment, cell, key_log, record);
-  } catch (const Failure& failure) {
-    record.why_invalid = failure.why;
-  } catch (const peer::ProtocolError& error) {
-    record.why_invalid = error.what();
-  } catch (const game::SceneError& error) {
-    throw ExperimentError(error.what());
-  } catch (const Interrupted&) {
-    return std::nullopt;
-  }
-  return record;
+  return recorded(experiment, cell, [&](RunRecord& record) { run(settings, experiment, cell, key_log, record); });
 }
 
 }  // namespace rink::loadgen

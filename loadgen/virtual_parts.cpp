@@ -11,6 +11,20 @@
 
 namespace rink::loadgen {
 
+std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell, const std::function<void(RunRecord&)>& run) {
+  RunRecord record = record_for(experiment, cell);
+  try {
+    run(record);
+  } catch (const Failure& failure) {
+    record.why_invalid = failure.why;
+  } catch (const game::SceneError& error) {
+    throw ExperimentError(error.what());
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+  return record;
+}
+
 std::int64_t not_before(double instant_s) {
   auto instant_ns = static_cast<std::int64_t>(std::floor(1e9 * instant_s)) - 1;
   while (1e-9 * static_cast<double>(instant_ns) < instant_s) ++instant_ns;

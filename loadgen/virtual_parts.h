@@ -4,15 +4,28 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "game/model/key.h"
 #include "game/model/scene.h"
 #include "loadgen/experiment.h"
+#include "loadgen/run_record.h"
 #include "rti/transport/network_model.h"
 
 namespace rink::loadgen {
+
+/// The user wants an end.
+struct Interrupted {};
+/// A run that cannot go on; `why` becomes the record's reason.
+struct Failure {
+  std::string why;
+};
+/// The record of `cell`, which `run` fills; nothing if it throws Interrupted. Throws ExperimentError for what of the scene or the key log cannot be read.
+std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell, const std::function<void(RunRecord&)>& run);
 
 inline constexpr std::int64_t second_ns = 1'000'000'000;
 

@@ -29,12 +29,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* server_name = "server";
 
-struct Interrupted {};
-/// A run that cannot go on; `why` becomes the record's reason.
-struct Failure {
-  std::string why;
-};
-
 class VirtualRun {
  public:
   VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
@@ -262,17 +256,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
 }  // namespace
 
 std::optional<RunRecord> run_virtual_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  RunRecord record = record_for(experiment, cell);
-  try {
-    run(settings, experiment, cell, key_log, record);
-  } catch (const Failure& failure) {
-    record.why_invalid = failure.why;
-  } catch (const game::SceneError& error) {
-    throw ExperimentError(error.what());
-  } catch (const Interrupted&) {
-    return std::nullopt;
-  }
-  return record;
+  return recorded(experiment, cell, [&](RunRecord& record) { run(settings, experiment, cell, key_log, record); });
 }
 
 }  // namespace rink::loadgen
