@@ -73,6 +73,8 @@ class CellRun {
     await(server, bots);
     record.server_cpu_s = server.ending()->cpu_s;
     record.bots_cpu_s = bots.ending()->cpu_s;
+    record.nodes.busiest_cpu_s = record.server_cpu_s;
+    record.nodes.mean_cpu_s = (*record.server_cpu_s + *record.bots_cpu_s) / (1.0 + cell_.clients);
     judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
     if (settings_.wants_truth) add_truth(record, experiment_, server_evidence, bots_evidence);
   }
