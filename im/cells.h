@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "im/filter.h"
@@ -22,8 +23,15 @@ inline double cell_size_of(const FilterSettings& settings) {
   return side > 0.0 ? side / cells_across : 1.0;
 }
 
+/// The largest whole number that is not above `number`. The library's floor is a call where the processor that is built for has no instruction for it, and half of a pass.
+inline double floored(double number) {
+  if (!(std::abs(number) < 0x1p52)) return std::floor(number);  // whole already, or no number
+  const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(number));
+  return towards_zero - (number < towards_zero ? 1.0 : 0.0);
+}
+
 /// A whole number in a double, so that no coordinate is too far; what lies beyond the largest shares the last cell.
-inline double cell_of(double coordinate, double origin, double size) { return std::clamp(std::floor((coordinate - origin) / size), -largest, largest); }
+inline double cell_of(double coordinate, double origin, double size) { return std::clamp(floored((coordinate - origin) / size), -largest, largest); }
 
 /// The cells that a region touches, first and last along each axis.
 inline Region cells_of(const Region& region, const Region& world, double size) {
