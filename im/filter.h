@@ -46,6 +46,8 @@ struct Change {
   friend auto operator<=>(const Change&, const Change&) = default;
 };
 
+class Worker;
+
 /// What a filter did since it was made; the proof that what did not move cost nothing.
 struct FilterCounters {
   std::uint64_t regions_moved = 0;  ///< regions handed in that differed, to the scheme, from what they were (`grid`: other cells)
@@ -127,6 +129,9 @@ class Filter {
 
   /// Side of the smallest cells that it decides by [m]; 0 if it has none. For who shows them.
   virtual double cell_size() const { return 0.0; }
+
+  /// Who may take half of a match from now on, where that pays (im/worker.h); null: nobody. It must outlive the filter. The changes are the same, bit for bit.
+  virtual void share_with(Worker*) {}
 };
 
 /// What a scheme may need to know to start.

@@ -22,6 +22,7 @@ class OverlapFilter : public Filter {
   void remove_subscriber(Subscriber subscriber) override;
   std::span<const Change> match() override;
   const FilterCounters& counters() const override { return counters_; }
+  void share_with(Worker* worker) override { join_.share_with(worker); }
 
   /// Memory held.
   std::size_t bytes() const;

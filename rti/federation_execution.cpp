@@ -28,7 +28,10 @@ namespace {
 
 std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
   auto filter = im::make_filter(settings.filter, settings.filter_settings);
-  if (filter) return filter;
+  if (filter) {
+    filter->share_with(settings.match_worker);
+    return filter;
+  }
   std::string names;
   for (const std::string& name : im::filter_names()) names += (names.empty() ? "" : ", ") + name;
   throw std::invalid_argument("no filter is called '" + settings.filter + "'; allowed are " + names);

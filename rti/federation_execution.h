@@ -40,6 +40,7 @@ struct FederationSettings {
   std::string federation = "rink";
   std::string filter = "none";              ///< a name that `im::make_filter` knows
   im::FilterSettings filter_settings;
+  im::Worker* match_worker = nullptr;       ///< takes half of a match where that pays; null: nobody. It must outlive the federation
   std::vector<std::string> members{};       ///< names of the federates that may join; none: anybody
   std::uint32_t federate_max = 16'000;      ///< joined at once; below `object_block_max`
   std::uint32_t object_max = 1u << 20;      ///< registered at once; beyond it, who has more than an even share of them gets no more

@@ -21,7 +21,7 @@ struct ServeOptions {
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
   std::uint64_t seed = 0;
-  bool is_time_managed = false;
+  bool is_time_managed = false, has_second_core = false;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
   double spread = 0.0;
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
@@ -49,6 +49,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(zero_or_number_from(1.0, 1e9))->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of schemes with cells [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
+  app.add_flag("--second-core", options.has_second_core, "another thread takes half of each match of interest that is large enough to gain by it (docs/im.md); the decisions are the same");
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();

@@ -23,20 +23,22 @@ std::optional<Rejection> BatchMatcher::set_world(const Region& world) {
   return rejection;
 }
 
-void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index) {
+void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index, std::vector<Rejection>& rejections) const {
   index.begin(world_, regions.size(), false);
   for (std::uint32_t id = 0; id < regions.size(); ++id) {
     if (is_valid(regions[id])) index.stage(id, regions[id]);
-    else rejections_.push_back({*fault_of(regions[id]), subject, id});
+    else rejections.push_back({*fault_of(regions[id]), subject, id});
   }
   index.build();
 }
 
 void BatchMatcher::match(std::span<const Region> updates, std::span<const Region> subscriptions) {
-  rejections_.clear();
+  rejections_.clear(), other_rejections_.clear();
   join_.clear();
-  stage(updates, Subject::update_region, updates_);
-  stage(subscriptions, Subject::subscription_region, subscriptions_);
+  Worker* const worker = updates.size() + subscriptions.size() < shared_regions_min ? nullptr : worker_;
+  join_.share_with(worker);
+  run_both(worker, [&] { stage(updates, Subject::update_region, updates_, rejections_); }, [&] { stage(subscriptions, Subject::subscription_region, subscriptions_, other_rejections_); });
+  rejections_.insert(rejections_.end(), other_rejections_.begin(), other_rejections_.end());
   const Exact exact{updates, subscriptions};
   join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
 }

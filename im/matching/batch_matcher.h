@@ -20,6 +20,9 @@ class BatchMatcher {
   /// Where most regions are [m]; others are served too, only slower. A bad one is rejected and the one before stays; it begins as the unit square.
   std::optional<Rejection> set_world(const Region& world);
 
+  /// Who takes half where there is enough to match (`shared_regions_min`); null, as at first: nobody. It must outlive the matcher. Pairs and their order are the same.
+  void share_with(Worker* worker) { worker_ = worker; }
+
   /// A region's id is its place. A bad region is left out and rejected; it overlaps nothing.
   void match(std::span<const Region> updates, std::span<const Region> subscriptions);
 
@@ -38,12 +41,13 @@ class BatchMatcher {
   const char* instructions() const { return join_.instructions(); }
 
  private:
-  void stage(std::span<const Region> regions, Subject subject, BoxIndex& index);
+  void stage(std::span<const Region> regions, Subject subject, BoxIndex& index, std::vector<Rejection>& rejections) const;
 
   Region world_{0.0, 0.0, 1.0, 1.0};
   BoxIndex updates_, subscriptions_;
   Join join_;
-  std::vector<Rejection> rejections_;
+  std::vector<Rejection> rejections_, other_rejections_;
+  Worker* worker_ = nullptr;
 };
 
 }  // namespace rink::im

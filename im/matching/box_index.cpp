@@ -28,13 +28,23 @@ FloatBox BoxIndex::hull(std::size_t staged) const { return is_moving_ ? hull_of(
 void BoxIndex::count_cells() {
   starts_.fill(levels_.cell_count() + std::size_t{1}, 0);
   cells_.resize(staged_count_);
-  for (std::size_t i = 0; i < staged_count_; ++i) {
+  // Nearly always there is one level. As a local copy it stays in registers; the counts could be anyone's memory.
+  if (levels_.size() > 1) return count_cells([this](const FloatBox& box) -> CellLevel& { return levels_.of(sizes_, box); });
+  CellLevel only = levels_[0];
+  count_cells([&only](const FloatBox&) -> CellLevel& { return only; });
+  levels_.replace_only(only);
+}
+
+template <class LevelOf>
+void BoxIndex::count_cells(const LevelOf& level_of) {
+  std::uint32_t* const counts = starts_.data();
+  std::uint32_t* const cells = cells_.data();
+  for (std::size_t i = 0, count = staged_count_; i < count; ++i) {
     const FloatBox box = hull(i);
-    CellLevel& level = levels_.of(sizes_, box);
+    CellLevel& level = level_of(box);
     level.widen(box);
     if (is_moving_) level.has_newcomers |= staged_before_[i].low_x > staged_before_[i].high_x;
-    cells_[i] = level.cell(box.low_x, box.low_y);
-    ++starts_[cells_[i]];
+    ++counts[cells[i] = level.cell(box.low_x, box.low_y)];
   }
 }
 

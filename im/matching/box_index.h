@@ -44,6 +44,8 @@ class BoxIndex {
 
  private:
   void count_cells();
+  template <class LevelOf>
+  void count_cells(const LevelOf& level_of);
   void sort();
   FloatBox hull(std::size_t staged) const;
   std::size_t collect(const CellLevel& level, const CellQuery& query, Buffer<Stretch>& stretches) const;

@@ -72,6 +72,8 @@ class CellLevels {
   std::size_t size() const { return levels_.size(); }
   std::uint32_t cell_count() const { return levels_.back().first_cell + levels_.back().cell_count(); }
   CellLevel& of(const SizeLevels& sizes, const FloatBox& box) { return levels_[levels_.size() == 1 ? 0 : sizes.level(longer_side(box))]; }
+  /// Of one level.
+  void replace_only(const CellLevel& level) { levels_[0] = level; }
   auto begin() const { return levels_.begin(); }
   auto end() const { return levels_.end(); }
   const CellLevel& operator[](std::size_t i) const { return levels_[i]; }

@@ -85,18 +85,26 @@ void ChangeJoin::build(const Side& side, BoxIndex& index) {
 }
 
 void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
-  stage(entities, swept_entities_);
-  build(entities, swept_entities_);
-  probes_.begin(world_);
-  if (subscribers.regions.size() > unordered_subscriber_max) {
-    stage(subscribers, swept_subscribers_);
-    build(subscribers, swept_subscribers_);
-    join(swept_entities_, swept_subscribers_, entities, subscribers);
-  } else {
+  Worker* const worker = entities.regions.size() + subscribers.regions.size() < shared_regions_min ? nullptr : worker_;
+  const bool is_ordered = subscribers.regions.size() > unordered_subscriber_max;
+  join_.share_with(worker);
+  const auto index_entities = [&] {
+    stage(entities, swept_entities_);
+    build(entities, swept_entities_);
+  };
+  const auto index_subscribers = [&] {
+    probes_.begin(world_);
+    if (is_ordered) {
+      stage(subscribers, swept_subscribers_);
+      return build(subscribers, swept_subscribers_);
+    }
     for (std::uint32_t id = 0; id < subscribers.regions.size(); ++id)
       if (!is_nowhere(subscribers.regions[id].now)) probes_.add(id, subscribers.regions[id]);
-    join(swept_entities_, probes_, entities, subscribers);
-  }
+  };
+  // Few subscribers are listed before anybody has woken up.
+  run_both(is_ordered ? worker : nullptr, index_entities, index_subscribers);
+  if (is_ordered) join(swept_entities_, swept_subscribers_, entities, subscribers);
+  else join(swept_entities_, probes_, entities, subscribers);
   changes_.add_by_subscriber(join_);
   for (const Side* side : {&entities, &subscribers}) side->standing.is_live = side->standing.is_live && side->moved.empty();
 }
@@ -117,6 +125,7 @@ void ChangeJoin::ask_resting(const Side& askers, const Side& asked) {
   probes_.begin(world_);
   for (const std::uint32_t id : askers.moved) probes_.add(id, askers.regions[id]);
   const Exact exact{askers.regions, asked.regions};
+  join_.share_with(askers.moved.size() < shared_movers_min ? nullptr : worker_);
   join_.clear();
   join_.add_changes(live, probes_, {!(probes_.is_exact() && live.is_exact()), judge_resting, &exact});
   pairs_tested_ += join_.candidate_count();

@@ -23,6 +23,9 @@ class ChangeJoin {
   std::span<const Change> find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
                                std::span<const std::uint32_t> moved_subscribers);
 
+  /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must outlive this. Changes and their order are the same.
+  void share_with(Worker* worker) { worker_ = worker; }
+
   void forget_entity(std::uint32_t entity) { entities_.live.remove(entity); }
   void forget_subscriber(std::uint32_t subscriber) { subscribers_.live.remove(subscriber); }
 
@@ -59,6 +62,7 @@ class ChangeJoin {
   Join join_;
   ChangeList changes_;
   std::uint64_t pairs_tested_ = 0;
+  Worker* worker_ = nullptr;
 };
 
 }  // namespace rink::im

@@ -1,6 +1,7 @@
 // Finds the stretches for a block of probes, then scans them: the first loads of the one hide behind each other, the second runs over what has arrived.
 #include "im/matching/join.h"
 
+#include <algorithm>
 #include <array>
 
 namespace rink::im {
@@ -10,38 +11,60 @@ constexpr std::size_t block_size = 32;
 
 }  // namespace
 
-void Join::clear() {
-  candidate_count_ = 0;
-  askers_.clear(), found_.clear(), ends_.clear();
+void Join::Part::clear() {
+  candidate_count = 0;
+  askers.clear(), found.clear(), ends.clear();
+}
+
+void Join::clear() { own_.clear(); }
+
+template <class Index, class Askers, class Find>
+void Join::Part::add(const Index& index, const Askers& all, std::size_t begin, std::size_t end, const TieJudge& judge, Scan scan, const Find& find) {
+  const Candidates candidates = index.candidates();
+  std::array<Probe, block_size> probes;
+  std::array<std::uint32_t, block_size> block_ends;
+  std::size_t place = askers.size();
+  askers.resize(place + end - begin);
+  ends.resize(place + end - begin);
+  for (std::size_t first = begin; first < end; first += block_size) {
+    const std::size_t count = std::min(block_size, end - first);
+    stretches.clear();
+    std::size_t block_candidates = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      probes[i] = all.probe(first + i);
+      block_candidates += find(probes[i], stretches);
+      probes[i].stretches_end = static_cast<std::uint32_t>(stretches.size());
+    }
+    candidate_count += block_candidates;
+    const std::size_t found_before = found.size();
+    found.reserve(found_before + block_candidates + 8);
+    const std::size_t found_now = scan(candidates, {probes.data(), count}, stretches.data(), judge, found.data() + found_before, block_ends.data());
+    found.resize(found_before + found_now);
+    for (std::size_t i = 0; i < count; ++i, ++place) {
+      askers[place] = probes[i].id;
+      ends[place] = found_before + block_ends[i];
+    }
+  }
+}
+
+void Join::Part::append(const Part& other) {
+  const std::size_t found_before = found.size(), place = askers.size();
+  candidate_count += other.candidate_count;
+  found.resize(found_before + other.found.size());
+  std::copy(other.found.span().begin(), other.found.span().end(), found.data() + found_before);
+  askers.resize(place + other.askers.size());
+  std::copy(other.askers.span().begin(), other.askers.span().end(), askers.data() + place);
+  ends.resize(place + other.ends.size());
+  for (std::size_t i = 0; i < other.ends.size(); ++i) ends[place + i] = found_before + other.ends[i];
 }
 
 template <class Index, class Askers, class Find>
 void Join::add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find) {
-  const Candidates candidates = index.candidates();
-  std::array<Probe, block_size> probes;
-  std::array<std::uint32_t, block_size> ends;
-  const std::size_t old_count = askers_.size();
-  askers_.resize(old_count + askers.size());
-  ends_.resize(old_count + askers.size());
-  for (std::size_t first = 0; first < askers.size(); first += block_size) {
-    const std::size_t count = std::min(block_size, askers.size() - first);
-    stretches_.clear();
-    std::size_t block_candidates = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      probes[i] = askers.probe(first + i);
-      block_candidates += find(probes[i], stretches_);
-      probes[i].stretches_end = static_cast<std::uint32_t>(stretches_.size());
-    }
-    candidate_count_ += block_candidates;
-    const std::size_t found_before = found_.size();
-    found_.reserve(found_before + block_candidates + 8);
-    const std::size_t found = scan(candidates, {probes.data(), count}, stretches_.data(), judge, found_.data() + found_before, ends.data());
-    found_.resize(found_before + found);
-    for (std::size_t i = 0; i < count; ++i) {
-      askers_[old_count + first + i] = probes[i].id;
-      ends_[old_count + first + i] = found_before + ends[i];
-    }
-  }
+  const std::size_t count = askers.size(), middle = worker_ ? count / 2 : count;
+  if (middle == count) return own_.add(index, askers, 0, count, judge, scan, find);
+  other_.clear();
+  run_both(worker_, [&] { own_.add(index, askers, 0, middle, judge, scan, find); }, [&] { other_.add(index, askers, middle, count, judge, scan, find); });
+  own_.append(other_);
 }
 
 void Join::add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge) {
@@ -57,8 +80,10 @@ template void Join::add_changes(const BoxIndex&, const BoxIndex&, const TieJudge
 template void Join::add_changes(const BoxIndex&, const ProbeList&, const TieJudge&);
 template void Join::add_changes(const LiveIndex&, const ProbeList&, const TieJudge&);
 
-std::size_t Join::bytes() const {
-  return sizeof(Stretch) * stretches_.capacity() + sizeof(std::uint32_t) * (askers_.capacity() + found_.capacity()) + sizeof(std::size_t) * ends_.capacity();
+std::size_t Join::Part::bytes() const {
+  return sizeof(Stretch) * stretches.capacity() + sizeof(std::uint32_t) * (askers.capacity() + found.capacity()) + sizeof(std::size_t) * ends.capacity();
 }
+
+std::size_t Join::bytes() const { return own_.bytes() + other_.bytes(); }
 
 }  // namespace rink::im

@@ -6,6 +6,7 @@
 #include "im/matching/box_index.h"
 #include "im/matching/live_index.h"
 #include "im/matching/probe_list.h"
+#include "im/worker.h"
 
 namespace rink::im {
 
@@ -15,32 +16,45 @@ class Join {
   explicit Join(Instructions instructions) : scans_(scans(instructions)) {}
 
   void clear();
+  /// Who takes half of what is added from now on; null: nobody. The answers are the same, in the same order.
+  void share_with(Worker* worker) { worker_ = worker; }
   /// All pairs of `askers` and `index` that overlap now.
   void add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
   /// All pairs whose overlap before and now differ. Index: BoxIndex or LiveIndex; askers: BoxIndex or ProbeList.
   template <class Index, class Askers>
   void add_changes(const Index& index, const Askers& askers, const TieJudge& judge);
 
-  std::size_t asker_count() const { return askers_.size(); }
-  std::uint32_t asker(std::size_t i) const { return askers_[i]; }
+  std::size_t asker_count() const { return own_.askers.size(); }
+  std::uint32_t asker(std::size_t i) const { return own_.askers[i]; }
   std::span<const std::uint32_t> found(std::size_t i) const {
-    const std::size_t first = i == 0 ? 0 : ends_[i - 1];
-    return {found_.data() + first, ends_[i] - first};
+    const std::size_t first = i == 0 ? 0 : own_.ends[i - 1];
+    return {own_.found.data() + first, own_.ends[i] - first};
   }
-  std::size_t found_count() const { return found_.size(); }
-  std::uint64_t candidate_count() const { return candidate_count_; }
+  std::size_t found_count() const { return own_.found.size(); }
+  std::uint64_t candidate_count() const { return own_.candidate_count; }
   const char* instructions() const { return scans_.name; }
   std::size_t bytes() const;
 
  private:
+  /// What some askers found.
+  struct Part {
+    std::uint64_t candidate_count = 0;
+    Buffer<Stretch> stretches;
+    Buffer<std::uint32_t> askers, found;
+    Buffer<std::size_t> ends;
+
+    void clear();
+    void append(const Part& other);
+    template <class Index, class Askers, class Find>
+    void add(const Index& index, const Askers& askers, std::size_t begin, std::size_t end, const TieJudge& judge, Scan scan, const Find& find);
+    std::size_t bytes() const;
+  };
   template <class Index, class Askers, class Find>
   void add(const Index& index, const Askers& askers, const TieJudge& judge, Scan scan, const Find& find);
 
   const Scans& scans_;
-  std::uint64_t candidate_count_ = 0;
-  Buffer<Stretch> stretches_;
-  Buffer<std::uint32_t> askers_, found_;
-  Buffer<std::size_t> ends_;
+  Worker* worker_ = nullptr;
+  Part own_, other_;  // the other's is added to ours
 };
 
 }  // namespace rink::im

@@ -97,6 +97,7 @@ RINK_AVX2 std::size_t scan_overlaps(const Candidates& candidates, std::span<cons
 RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                                    std::uint32_t* ends) {
   std::size_t count = 0, stretch = 0;
+  const __m256 zero = _mm256_setzero_ps();
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const WideBox before = widen(probes[p].before), now = widen(probes[p].now);
     for (const std::size_t end = probes[p].stretches_end; stretch < end; ++stretch)
@@ -104,9 +105,11 @@ RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, std::span<const
         // Reading `before` only of boxes whose clearance now is within what may have moved saves half of the loads and takes longer: no processor foresees which.
         const __m256 then = clearance(candidates.before, i, before), today = clearance(candidates.now, i, now);
         const unsigned valid = lanes(stretches[stretch].end - i);
-        unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_xor_ps(then, today))) & valid;
-        const unsigned doubtful = judge.is_needed ? (ties(then) | ties(today)) & valid : 0;
-        if ((hits | doubtful) == 0) continue;
+        // Nearly always nothing has changed and nothing ties, which one mask says.
+        const __m256 changed = _mm256_xor_ps(then, today), tied = _mm256_or_ps(_mm256_cmp_ps(then, zero, _CMP_EQ_OQ), _mm256_cmp_ps(today, zero, _CMP_EQ_OQ));
+        if ((static_cast<unsigned>(_mm256_movemask_ps(_mm256_or_ps(changed, tied))) & valid) == 0) continue;
+        unsigned hits = static_cast<unsigned>(_mm256_movemask_ps(changed)) & valid;
+        const unsigned doubtful = judge.is_needed ? static_cast<unsigned>(_mm256_movemask_ps(tied)) & valid : 0;
         const __m256i entered = _mm256_andnot_si256(_mm256_castps_si256(today), _mm256_set1_epi32(static_cast<int>(entered_bit)));
         __m256i ids = _mm256_or_si256(load(candidates.ids + i), entered);
         if (doubtful != 0) hits = decide(hits, doubtful, judge, probes[p].id, ids);
