@@ -5,18 +5,23 @@
 namespace rink::im {
 namespace {
 
+/// Pairs come subscriber by subscriber, so the cells that one touches are kept until another asks.
 struct InTouchedCell {
   Region world;
   double cell_size;
-  bool operator()(const Party& subscriber, const Party& entity) const {
-    const Region touched = cells_of(subscriber.region, world, cell_size), cell = cells_of(centre_of(entity.region), world, cell_size);
-    return touched.low_x <= cell.low_x && cell.low_x <= touched.high_x && touched.low_y <= cell.low_y && cell.low_y <= touched.high_y;
+  Region asked = nowhere, touched = nowhere;
+
+  bool operator()(const Party& subscriber, const Party& entity) {
+    if (!(subscriber.region == asked)) asked = subscriber.region, touched = cells_of(asked, world, cell_size);
+    const Region centre = centre_of(entity.region);
+    const double column = cell_of(centre.low_x, world.low_x, cell_size), row = cell_of(centre.low_y, world.low_y, cell_size);
+    return (touched.low_x <= column) & (column <= touched.high_x) & (touched.low_y <= row) & (row <= touched.high_y);
   }
 };
 
 class HybridFilter final : public PredicateFilter<InTouchedCell> {
  public:
-  HybridFilter(const Region& world, double cell_size) : PredicateFilter(world, {world, cell_size}), cell_size_(cell_size) {}
+  HybridFilter(const Region& world, double cell_size) : PredicateFilter(world, {.world = world, .cell_size = cell_size}), cell_size_(cell_size) {}
   double cell_size() const override { return cell_size_; }
 
  private:
