@@ -25,13 +25,14 @@ void require_match(const ServeOptions& options, const Scene& scene) {
 
 /// Throws if cells are given a size that a scheme has none of: a sweep of it would compare equal runs.
 void require_cells(const ServeOptions& options) {
-  if (options.cell_size == 0.0) return;
+  const auto has_cells = [](const std::string& scheme) {
+    const auto filter = im::make_filter(scheme, {});
+    return filter && filter->cell_size() > 0.0;
+  };
+  if (options.cell_size == 0.0 || has_cells(options.scheme)) return;
   std::string having;
-  for (const std::string& name : im::filter_names()) {
-    if (im::make_filter(name, {})->cell_size() == 0.0) continue;
-    if (name == options.scheme) return;
-    having += (having.empty() ? "" : ", ") + name;
-  }
+  for (const std::string& name : im::filter_names())
+    if (has_cells(name)) having += (having.empty() ? "" : ", ") + name;
   throw std::runtime_error("--cell-size: the scheme " + options.scheme + " has no cells; those that have are " + having);
 }
 
