@@ -109,6 +109,14 @@ std::unique_ptr<Filter> build_combination(const Expression& expression, const Fi
   return make_combination(std::move(operands), std::move(steps));
 }
 
+/// The first stage `swept` in `expression`, or nothing.
+const Expression* swept_in(const Expression& expression) {
+  if (expression.kind == Kind::stage && expression.name == "swept") return &expression;
+  for (const Expression& operand : expression.operands)
+    if (const Expression* const found = swept_in(operand)) return found;
+  return nullptr;
+}
+
 std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSettings& settings) {
   const Expression& inner = stage.operands.front();
   const auto build_inner = [&] { return build_filter(inner, settings); };
@@ -119,9 +127,15 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   if (stage.name == "dwell") return make_dwell(build_inner(), static_cast<std::uint32_t>(stage.parameter("matches", 1.0)));
   if (stage.name == "swept") return make_swept(build_inner(), stage.parameter("horizon", 0.0), stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
   if (stage.name == "priority") return make_priority(build_inner());
+  // Rings measure where those who fly are now, if what they stand behind knows of flights.
+  const Expression* const swept = swept_in(inner);
+  const auto make_ring = [&] {
+    auto ring = make_scheme("aura", settings);
+    return swept ? make_swept(std::move(ring), 0.0, swept->parameter("drag", settings.drag), false) : std::move(ring);
+  };
   std::vector<std::unique_ptr<Filter>> rings;
   std::vector<double> fractions;
-  for (const auto& at : stage.parameters) rings.push_back(make_scheme("aura", settings)), fractions.push_back(at.value);
+  for (const auto& at : stage.parameters) rings.push_back(make_ring()), fractions.push_back(at.value);
   return make_tiers(build_inner(), std::move(rings), std::move(fractions));
 }
 

@@ -185,6 +185,18 @@ TEST(Swept, CostsNothingForWhoRests) {
   EXPECT_NEAR(filter->stays()[0].leaves, 15.1, 1e-12);
 }
 
+TEST(Swept, LetsTiersMeasureWhereThoseWhoFlyAre) {
+  const auto filter = make_filter("region with swept(horizon=4) with tiers(at=0.5)", {.world = {0.0, 0.0, 100.0, 100.0}});
+  filter->set_subscription_region(0, around(50.0, 50.0, 10.0));
+  filter->set_update_region(0, around(42.0, 50.0, 0.0));
+  filter->set_flight(0, {.x = 42.0, .y = 50.0, .velocity_x = 1.0});
+  EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::entered, 1}));
+  filter->set_time(2.9);
+  EXPECT_THAT(filter->match(), IsEmpty());
+  filter->set_time(3.0);
+  EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::tier_changed, 0})) << "at 45, 5 from the middle";
+}
+
 TEST(Swept, TakesARegionForTheEndOfAFlight) {
   const auto filter = make_filter("region with swept(horizon=10)", {.world = {0.0, 0.0, 100.0, 100.0}});
   filter->set_subscription_region(0, {50.0, 0.0, 60.0, 10.0});
