@@ -15,7 +15,7 @@ namespace {
 
 std::vector<Harness> all_harnesses() {
   std::vector<Harness> all;
-  for (const auto& list : {rti_harnesses(), game_harnesses()}) all.insert(all.end(), list.begin(), list.end());
+  for (const auto& list : {rti_harnesses(), game_harnesses(), im_harnesses()}) all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 

@@ -16,9 +16,10 @@ struct Harness {
   void (*run)(rti::Bytes input);
 };
 
-/// Of the RTI and of the game, both lists one after the other.
+/// Of the RTI, of the game and of interest management, all lists one after the other.
 std::span<const Harness> rti_harnesses();
 std::span<const Harness> game_harnesses();
+std::span<const Harness> im_harnesses();
 
 /// Stands in all builds, unlike an assertion.
 inline void require(bool holds, const char* what) {
