@@ -50,14 +50,12 @@ struct Parameters {
 /// The mode in which each client is a peer that simulates its part of the field.
 inline constexpr const char* peer_mode = "peer-to-peer";
 
-/// The filters that the RTI knows, and the update policies that the server knows.
-std::vector<std::string> known_schemes();
+/// The update policies that the server knows.
 std::vector<std::string> known_policies();
 
-/// The names that an experiment may use.
+/// The names that an experiment may use; schemes are expressions that the RTI's filters judge (docs/im.md).
 struct Vocabulary {
   std::vector<std::string> modes{"client-server", peer_mode};
-  std::vector<std::string> schemes = known_schemes();
   std::vector<std::string> policies = known_policies();
 };
 

@@ -53,6 +53,17 @@ class ExperimentReader {
     });
   }
 
+  /// Texts that `complaint` says nothing against; what it says stands in place of what is allowed.
+  void judged(const char* key, std::vector<std::string>& into, const std::function<std::optional<std::string>(const std::string&)>& complaint) {
+    std::string allowed = "the name of a scheme, or an expression of several (docs/im.md)";
+    read_list(key, into, allowed, [&](const toml::node& node) -> std::optional<std::string> {
+      auto text = node.value_exact<std::string>();
+      const auto wrong = text ? complaint(*text) : std::nullopt;
+      if (wrong) allowed = "a scheme: " + *wrong, text.reset();
+      return text;
+    });
+  }
+
   template <class Whole>
   void whole_numbers(const char* key, std::vector<Whole>& into, std::int64_t least, std::int64_t most) {
     const std::string allowed = "whole numbers from " + std::to_string(least) + " to " + std::to_string(most);

@@ -73,7 +73,7 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
 }
 
 std::string name_of(const Cell& cell) {
-  std::string name = cell.mode + "-" + cell.scheme + "-" + cell.policy + "-" + std::to_string(cell.clients);
+  std::string name = cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy + "-" + std::to_string(cell.clients);
   for (const Difference& difference : differences_of(cell)) name += std::string("-") + difference.name + difference.value;
   return name + "-seed" + std::to_string(cell.seed);
 }

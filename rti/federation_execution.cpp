@@ -27,14 +27,10 @@ const char* to_string(Violation violation) {
 namespace {
 
 std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
+  if (const auto complaint = im::complaint_about(settings.filter, settings.filter_settings)) throw std::invalid_argument("filter '" + settings.filter + "': " + *complaint);
   auto filter = im::make_filter(settings.filter, settings.filter_settings);
-  if (filter) {
-    filter->share_with(settings.match_worker);
-    return filter;
-  }
-  std::string names;
-  for (const std::string& name : im::filter_names()) names += (names.empty() ? "" : ", ") + name;
-  throw std::invalid_argument("no filter is called '" + settings.filter + "'; allowed are " + names);
+  filter->share_with(settings.match_worker);
+  return filter;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ const char* to_string(Violation violation);
 
 struct FederationSettings {
   std::string federation = "rink";
-  std::string filter = "none";              ///< a name that `im::make_filter` knows
+  std::string filter = "none";              ///< an expression that `im::make_filter` takes
   im::FilterSettings filter_settings;
   im::Worker* match_worker = nullptr;       ///< takes half of a match where that pays; null: nobody. It must outlive the federation
   std::vector<std::string> members{};       ///< names of the federates that may join; none: anybody

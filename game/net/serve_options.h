@@ -47,7 +47,9 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--key-file", options.key_file, "let in only clients that have the same file (docs/rti.md, Admission); none: all")->check(CLI::ExistingFile);
   app.add_option("--rate-limit", options.rate_limit_bytes_per_s, "bytes per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e12))->capture_default_str();
   app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(zero_or_number_from(1.0, 1e9))->capture_default_str();
-  app.add_option("--scheme", options.scheme, "interest management")->check(CLI::IsMember(im::filter_names()))->capture_default_str();
+  app.add_option("--scheme", options.scheme, "interest management: a scheme, or several with and, or, not, and stages after with (docs/im.md)")
+      ->check([](const std::string& text) { return im::complaint_about(text, {}).value_or(""); }, "SCHEME")
+      ->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of schemes with cells [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
   app.add_flag("--second-core", options.has_second_core, "another thread takes half of each match of interest that is large enough to gain by it (docs/im.md); the decisions are the same");
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();

@@ -5,13 +5,17 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 namespace rink::game {
 
 using Json = nlohmann::ordered_json;
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients) {
-  return {serving.execution().counters(), clients, serving.execution().filter().counters(), serving.server().game().world().counters()};
+  const im::Filter& filter = serving.execution().filter();
+  std::vector<im::StageCount> stages;
+  filter.list_counts(stages);
+  return {serving.execution().counters(), clients, filter.counters(), std::move(stages), serving.server().game().world().counters()};
 }
 
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
@@ -19,25 +23,31 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
   const Server& server = serving.server();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
-  return {{"entities", server.game().entities().size()},
-          {"state_hash", hash},
-          {"bytes_sent", last.transport.bytes_sent - first.transport.bytes_sent},
-          {"bytes_received", last.transport.bytes_received - first.transport.bytes_received},
-          {"writes_sent", last.transport.writes - first.transport.writes},
-          {"segments_sent", last.transport.segments_sent - first.transport.segments_sent},
-          {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
-          {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
-          {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
-          {"scope_entries", end.scope_entries - begin.scope_entries},
-          {"scope_exits", end.scope_exits - begin.scope_exits},
-          {"physics_events", last.physics.events() - first.physics.events()},
-          {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
-          {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
-          {"lost_federates", server.counters().federates_lost},
-          {"dropped_connections", std::accumulate(end.drops.begin(), end.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
-          {"keys_received", server.counters().keys_received},
-          {"keys_applied", server.counters().keys_applied},
-          {"keys_refused", server.counters().keys_refused}};
+  Json report{{"entities", server.game().entities().size()},
+              {"state_hash", hash},
+              {"bytes_sent", last.transport.bytes_sent - first.transport.bytes_sent},
+              {"bytes_received", last.transport.bytes_received - first.transport.bytes_received},
+              {"writes_sent", last.transport.writes - first.transport.writes},
+              {"segments_sent", last.transport.segments_sent - first.transport.segments_sent},
+              {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
+              {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
+              {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
+              {"scope_entries", end.scope_entries - begin.scope_entries},
+              {"scope_exits", end.scope_exits - begin.scope_exits},
+              {"physics_events", last.physics.events() - first.physics.events()},
+              {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
+              {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
+              {"lost_federates", server.counters().federates_lost},
+              {"dropped_connections", std::accumulate(end.drops.begin(), end.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
+              {"keys_received", server.counters().keys_received},
+              {"keys_applied", server.counters().keys_applied},
+              {"keys_refused", server.counters().keys_refused}};
+  // Stages are in the order in which they stand; of two of a kind each has its own entry.
+  for (std::size_t i = 0; i < last.stages.size(); ++i) {
+    const im::StageCount& stage = last.stages[i];
+    report["filter_stages"].push_back({{"stage", stage.stage}, {"counted", stage.what}, {"count", stage.count - (i < first.stages.size() ? first.stages[i].count : 0)}});
+  }
+  return report;
 }
 
 void add_totals(Json& report, const rti::TransportCounters& total) {

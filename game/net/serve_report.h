@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "game/net/serving.h"
 
@@ -12,6 +13,7 @@ struct ServingCounts {
   rti::FederationCounters federation;  ///< of the RTI, the server's own federate included
   rti::TransportCounters transport;    ///< of the clients' connections
   im::FilterCounters filter;
+  std::vector<im::StageCount> stages;  ///< what the filter's stages did
   physics::Counters physics;
 };
 

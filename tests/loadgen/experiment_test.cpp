@@ -49,6 +49,16 @@ TEST(ExperimentFile, ASceneFileIsLookedForBesideTheExperiment) {
   EXPECT_EQ(parse_experiment("name='x'\nscene='match'", "dir/x.toml", {}).scene, "match");
 }
 
+TEST(ExperimentFile, TakesExpressionsForSchemesAndSaysWhatIsWrongWithOne) {
+  const Experiment read = parse_experiment(minimal + "schemes = ['region', 'aura and not sight with dwell(matches=3)']", "x.toml", {});
+  ASSERT_EQ(read.schemes.size(), 2u);
+  EXPECT_EQ(read.baseline_scheme, "region");
+  EXPECT_THAT(name_of(cells_of(read)[1]), StartsWith("client-server-aura_and_not_sight_with_dwell[matches=3]-periodic"));
+  EXPECT_THAT(complaint_about(minimal + "schemes = ['region', 'aura and not sihgt']"), AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("no scheme is called 'sihgt'")));
+  EXPECT_THAT(complaint_about(minimal + "schemes = ['grid(cell_size=0)']"), HasSubstr("grid: cell_size = 0 is not a number from 0.001"));
+  EXPECT_THAT(complaint_about(minimal + "schemes = 7"), HasSubstr("schemes = 7"));
+}
+
 TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "schemes = ['none', 'gird']"),
               AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("gird"), HasSubstr("none"), HasSubstr("grid"), HasSubstr("region")));
