@@ -121,24 +121,34 @@ class Parser {
     at_ = static_cast<std::size_t>(end - text_.data());
     return node;
   }
-  std::string word(const char* expected, bool may_have_marks) {
+  std::string word(const char* expected) {
     skip_spaces();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_word(text_[at_]) || (may_have_marks && (text_[at_] == '-' || text_[at_] == '.' || text_[at_] == '+')))) ++at_;
+    while (at_ < text_.size() && is_word(text_[at_])) ++at_;
     if (at_ == begin) complain(expected);
     return text_.substr(begin, at_ - begin);
+  }
+  /// Up to the comma or bracket that ends it, for schemes are composed of several words and parentheses.
+  std::string value() {
+    skip_spaces();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != ']' && text_[at_] != '[') ++at_;
+    std::size_t end = at_;
+    while (end > begin && text_[end - 1] == ' ') --end;
+    if (end == begin) complain("a value");
+    return text_.substr(begin, end - begin);
   }
   Tree figure() {
     auto node = std::make_unique<Node>();
     node->kind = Node::Kind::figure;
     skip_spaces();
     const std::size_t begin = at_;
-    node->name = word("a number, a figure or (", false);
+    node->name = word("a number, a figure or (");
     if (accept("[")) {
       do {
-        std::string key = word("a key such as scheme", false);
+        std::string key = word("a key such as scheme");
         expect("=");
-        node->selection.emplace_back(std::move(key), word("a value", true));
+        node->selection.emplace_back(std::move(key), value());
       } while (accept(","));
       expect("]");
     }

@@ -52,6 +52,18 @@ TEST(Assertion, ArithmeticAndLogicBindAsUsual) {
   for (const char* text : {"1 > 1", "1 < 2 and 2 < 1", "not 1 < 2", "1 / 0 > 0 or 1 > 2"}) EXPECT_FALSE(holds(text)) << text;
 }
 
+TEST(Assertion, SelectsSchemesThatAreComposed) {
+  Experiment composed = small_experiment();
+  composed.schemes = {"region", "aura and not (sight or team) with dwell(matches=3)"};
+  std::vector<RunRecord> runs;
+  for (const Cell& cell : cells_of(composed)) {
+    runs.push_back(record_for(composed, cell));
+    runs.back().down_bytes_per_client_per_s = cell.scheme == "region" ? 2.0 : 7.0;
+    runs.back().valid = true;
+  }
+  EXPECT_TRUE(Assertion("down_bytes_per_client_per_s[ scheme = aura and not (sight or team) with dwell(matches=3) ] == 7", composed).judge(summarise(runs)).holds);
+}
+
 TEST(Assertion, FiguresAreMeansOfSelectedCells) {
   EXPECT_TRUE(holds("down_bytes_per_client_per_s[scheme=none,clients=20] == 2000"));
   EXPECT_TRUE(holds("down_bytes_per_client_per_s[scheme=region, clients=10, view_margin=0.5] == 40.5"));
