@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "rti/buffering/best_effort_outbox.h"
 #include "rti/wire/message.h"
 #include "rti/wire/update_block.h"
 
@@ -69,11 +70,13 @@ void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attri
     encode(fom_.at(object_class), attributes, values, stamp.time, coded_);
     values = coded_;
   }
-  say_update(object, object_class, attributes, values, stamp);
+  if (outbox_) attributes = say_best_effort(object, object_class, attributes, values, stamp);
+  if (!attributes.is_empty()) say_update(object, object_class, attributes, values, stamp);
 }
 
 void AmbassadorParts::say_update(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   assert(values.size() <= values_max);
+  if (outbox_) before_stream(object, object_class, attributes);
   // Stamp, header with two numbers of at most 5 bytes, step to the handle, end.
   constexpr std::size_t header_size_max = StampMessage::size_max + 1 + 5 + 5, rest_max = 5 + 1;
   if (!open_.is_open || open_.object_class != object_class || open_.attributes != attributes || open_.stamp != stamp || !outgoing_.has_room(rest_max + values.size())) {
@@ -118,6 +121,7 @@ void Ambassador::advance_clock(double now) {
   if (has_heard_) last_heard_ = now;
   if (has_said_ || !outgoing_.bytes().empty()) last_said_ = now;
   has_heard_ = has_said_ = false;
+  if (outbox_ && phase_ == Phase::joined) repair_best_effort();
   if (!postponed_.empty()) release_postponed();
   if (phase_ != Phase::joined && phase_ != Phase::joining) return;
   if (receipts_.is_due() && now - receipts_due_since_ >= DatagramReceipts::longest_delay_s) acknowledge_datagrams();
@@ -133,6 +137,8 @@ void AmbassadorParts::forget(ObjectHandle object) {
   regions_.forget(object);
   declared_.spared.forget(object);
   names_.forget(object);
+  made_reliable_.erase(object);
+  if (outbox_) outbox_->forget(object, AttributeSet(~0u));
   if (is_ours(object)) own_[object.value % object_block] = {};
   else known_.erase(object);
 }
@@ -151,7 +157,7 @@ std::size_t Ambassador::memory_bytes() const {
   const std::size_t waiting = held_.capacity() + postponed_.capacity() + content_.capacity() + (queue_ ? queue_->memory_bytes() : 0);
   return waiting + holdings_.memory_bytes() + own_.capacity() * sizeof own_[0] + known_.memory_bytes() + names_.memory_bytes() + regions_.memory_bytes() +
          region_records_.capacity() + outgoing_.memory_bytes() + incoming_.memory_bytes() + keyframes_.memory_bytes() + arrivals_.memory_bytes() +
-         declared_.memory_bytes();
+         declared_.memory_bytes() + (outbox_ ? outbox_->memory_bytes() : 0);
 }
 
 }  // namespace rink::rti

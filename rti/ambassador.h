@@ -186,10 +186,11 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is counted and otherwise ignored.
   void receive_datagram(Bytes datagram);
   /// There is a way for datagrams: from now on the order of frames matters too, for an older datagram may come after them.
-  void expect_datagrams() { has_datagrams_ = true; }
-  /// The datagram that must go to the RTI, if not empty, and that it has gone. `clear_outgoing` says no word of it.
-  Bytes outgoing_datagram() const { return outgoing_datagram_; }
-  void clear_outgoing_datagram();
+  /// `size_max`: the most bytes that one may have now; 0 while there is none. Best-effort updates go by it, unless this federate keeps time or leaves objects behind.
+  void expect_datagrams(std::size_t size_max);
+  /// The datagrams that must go to the RTI, behind `outgoing` or beside it, and that they have gone. `clear_outgoing` says no word of them. Valid until then.
+  std::span<const Datagram> outgoing_datagrams();
+  void clear_outgoing_datagrams();
   /// What must go to the RTI, and that it has gone.
   Bytes outgoing() const { return outgoing_.bytes(); }
   void clear_outgoing();

@@ -19,6 +19,9 @@ struct AmbassadorCounters {
   /// Of datagrams: that were applied; that were ignored, for they had come before or made no sense; updates in them that were older than what is known, or of
   /// objects out of scope.
   std::uint64_t datagrams_received = 0, datagrams_ignored = 0, updates_outdated = 0;
+  /// Of one's own best-effort updates: datagrams sent (acknowledgements too), attributes said again since they may have been lost, and how often the way was given up and
+  /// open again.
+  std::uint64_t datagrams_sent = 0, updates_repaired = 0, datagram_fallbacks = 0, datagram_recoveries = 0;
 };
 
 }  // namespace rink::rti

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "rti/ambassador.h"
+#include "rti/buffering/best_effort_outbox.h"
 #include "rti/wire/datagram.h"
 #include "rti/wire/update_block.h"
 
@@ -66,7 +67,9 @@ bool AmbassadorParts::take_datagram(const DatagramHead& head, Reader& reader) {
     std::uint8_t kind = 0;
     reader.number(kind);
     if (kind == datagram_end) break;
+    AcknowledgeDatagramsMessage ours;
     if (static_cast<MessageKind>(kind) == MessageKind::stamp) is_understood = take_stamp(reader);
+    else if (static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams) is_understood = exchange(reader, ours) && outbox_ && outbox_->acknowledge(ours, now_);
     else is_understood = static_cast<MessageKind>(kind) == MessageKind::updates && take_datagram_updates(head, reader);
   }
   heard_stamp_ = stamp_of_frame;
@@ -106,19 +109,14 @@ bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& re
   return is_read || phase_ != Phase::joined;
 }
 
-void Ambassador::clear_outgoing_datagram() {
-  counters_.bytes_sent += outgoing_datagram_.size();
-  outgoing_datagram_.clear();
-}
-
 void AmbassadorParts::acknowledge_datagrams() {
-  if (outgoing_datagram_.empty()) {
+  if (acknowledgement_.empty()) {
     DatagramHead head;
-    Writer writer(outgoing_datagram_);
+    Writer writer(acknowledgement_);
     exchange(writer, head);
   }
   AcknowledgeDatagramsMessage message = receipts_.acknowledge();
-  write(outgoing_datagram_, message);
+  write(acknowledgement_, message);
 }
 
 }  // namespace rink::rti

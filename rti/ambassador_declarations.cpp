@@ -11,7 +11,7 @@ void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class,
   require_class(object_class, attributes);
   if (fom_.is_management(object_class)) throw RtiException(HlaError::unauthorized, "class " + fom_.at(object_class).name + " is the RTI's to publish");
   DeclaredState::Class& declared = declared_.objects[object_class.value];
-  if (!declared.published.without(attributes).is_empty()) release_spared(object_class, AttributeSet(~0u));
+  if (!declared.published.without(attributes).is_empty()) release_spared(object_class, AttributeSet(~0u)), release_best_effort(object_class);
   withdraw_publication(object_class, declared.published.without(attributes), attributes.is_empty());
   declared.published = attributes;
   if (attributes.is_empty()) declared.is_relevant = false;
@@ -169,6 +169,7 @@ bool AmbassadorParts::spare(ObjectHandle object, const KnownObject& known, Attri
   declared_.newest = stamp;
   const AttributeSet outdated = (attributes & declared.sent).without(spared.announced);
   spared.announced = spared.announced | outdated;
+  before_stream(object, object_class, attributes);
   if (!outdated.is_empty()) say(SpareUpdateMessage{object.value, outdated.bits});
   ++counters_.updates_spared;
   return true;

@@ -63,6 +63,7 @@ void Ambassador::join(std::string_view federation, std::string_view federate_nam
   outgoing_.close_frame();
   say(message);
   outgoing_.close_frame();  // before it is let in, a federate may only send short frames
+  frames_to_join_ = outgoing_.frame_count();
 }
 
 void Ambassador::resign() {

@@ -107,6 +107,10 @@ void Ambassador::request_attribute_value_update(ObjectHandle object, AttributeSe
 
 void Ambassador::request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes, Transportation transportation) {
   require_owned(object, attributes);
+  if (transportation == Transportation::reliable) {  // at once, for that promises more
+    release_best_effort(object, attributes);
+    made_reliable_[object] = made_reliable_[object] | attributes;
+  }
   say(ChangeTransportationMessage{0, object.value, attributes.without(AttributeSet{privilege_to_delete_object}).bits, static_cast<std::uint8_t>(transportation)});
 }
 
@@ -142,6 +146,8 @@ bool AmbassadorParts::take_transportation(Reader& reader) {
   if (known == nullptr) return is_gone(object);
   const AttributeSet all = fom_.attributes(ObjectClassHandle{known->object_class});
   if (message.is_confirmation != 0 ? !all.includes(AttributeSet(message.which)) : !all.contains({message.which})) return false;
+  AttributeSet* reliable = made_reliable_.find(object);
+  if (message.is_confirmation != 0 && transportation == Transportation::best_effort && reliable != nullptr) *reliable = reliable->without(AttributeSet(message.which));
   if (message.is_confirmation != 0) callbacks_.confirm_attribute_transportation_type_change(object, AttributeSet(message.which), transportation);
   else callbacks_.report_attribute_transportation_type(object, {message.which}, transportation);
   return true;

@@ -88,6 +88,7 @@ AttributeSet AmbassadorParts::require_owned(ObjectHandle object, AttributeSet at
 void AmbassadorParts::ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag) {
   if (attributes.is_empty()) return;
   release_spared(object);
+  release_best_effort(object, AttributeSet(~0u));
   require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object, "a tag of an ownership service has at most 1,024 bytes");
   say_of(OwnershipRequestMessage{static_cast<std::uint8_t>(request), attributes.bits, tag}, object);
 }
@@ -197,7 +198,7 @@ void Ambassador::set_automatic_resign_directive(ResignAction action) {
 /// What outlives its federate must be known to the RTI.
 void AmbassadorParts::say_directive(ResignAction action) {
   declared_.is_deleting = deletes(action);
-  if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u));
+  if (!declared_.is_deleting) release_spared(ObjectClassHandle{}, AttributeSet(~0u)), release_best_effort();
   say(ResignDirectiveMessage{static_cast<std::uint8_t>(action)});
 }
 

@@ -33,6 +33,7 @@
 
 namespace rink::rti {
 
+class BestEffortOutbox;
 struct DeltaHeader;
 
 /// The data of an ambassador, and all of its functions that are no services.
@@ -42,6 +43,7 @@ class AmbassadorParts : public FomLookup {
 
  protected:
   AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model);
+  ~AmbassadorParts();
 
   enum class Phase : std::uint8_t { idle, joining, joined, ended };
   /// Appends a message; the block of updates that grows at the end is over. Throws FederateNotExecutionMember.
@@ -125,6 +127,15 @@ class AmbassadorParts : public FomLookup {
   void apply_datagram(Bytes datagram);
   void apply_held_datagrams();
   void acknowledge_datagrams();
+  // One's own (ambassador_best_effort.cpp).
+  AttributeSet by_datagram(ObjectHandle object, ObjectClassHandle object_class) const;
+  AttributeSet say_best_effort(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes, Bytes& values, const Stamp& stamp);
+  std::uint32_t frames_said() const;
+  void before_stream(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes);
+  void release_best_effort();
+  void release_best_effort(ObjectClassHandle object_class);
+  void release_best_effort(ObjectHandle object, AttributeSet attributes);
+  void repair_best_effort();
 
   // Declarations (ambassador_declarations.cpp).
   void require_class(ObjectClassHandle object_class, AttributeSet attributes) const;
@@ -193,7 +204,12 @@ class AmbassadorParts : public FomLookup {
   ArrivalOrder arrivals_;
   DatagramReceipts receipts_;
   std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
-  std::vector<std::byte> outgoing_datagram_, cut_values_;
+  std::vector<std::byte> acknowledgement_, cut_values_, best_effort_values_;
+  std::vector<Datagram> datagrams_;                    ///< that go out
+  std::unique_ptr<BestEffortOutbox> outbox_;           ///< null until there is a way and something to send by it
+  ObjectMap<AttributeSet> made_reliable_;              ///< of objects of ours
+  std::uint64_t frames_to_join_ = 0;                   ///< said up to the one that asks to join
+  bool is_timed_ = false;                              ///< it has used time management
   std::uint32_t frames_heard_ = 0;                     ///< from the one that let us in
   bool has_datagrams_ = false;                         ///< one may come
   double receipts_due_since_ = 0.0;

@@ -18,6 +18,8 @@ constexpr std::size_t postponed_max = 64u << 20;
 
 void Ambassador::enable_time_regulation(double lookahead) {
   clock_.ask_regulation(lookahead);
+  release_best_effort();
+  is_timed_ = true;
   say(EnableTimeRegulationMessage{lookahead});
 }
 
@@ -29,6 +31,8 @@ void Ambassador::disable_time_regulation() {
 
 void Ambassador::enable_time_constrained() {
   clock_.ask_constrained();
+  release_best_effort();
+  is_timed_ = true;
   say(TimeSwitchMessage{static_cast<std::uint8_t>(TimeSwitch::enable_constrained)});
 }
 

@@ -26,9 +26,8 @@ void FederationExecution::Parts::list_best_effort() {
   }
 }
 
-void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes values) {
+void FederationExecution::Parts::append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values) {
   const AttributeSet best_effort = attributes & by_datagram(object), reliable(attributes.bits & ~best_effort.bits);
-  const Stamp& stamp = federates_[slot].newest;
   if (best_effort.is_empty() || reliable.is_empty()) return buffering_->append(slot, object, objects_[object], attributes, stamp, values);
   for (const AttributeSet part : {reliable, best_effort}) {
     values_.clear();
@@ -141,28 +140,6 @@ void FederationExecution::Parts::send_datagrams(Federate& federate, Outlet& outl
   // Who hears of us by datagrams, as its answers tell, needs no heartbeat beside them.
   if (const auto since = way_->ledger.unanswered_since(); !since || now_ - *since < settings_.patience.heartbeat_s) federate.last_said = now_;
   outlet.send_datagrams(federate.connection, datagrams);
-}
-
-void FederationExecution::Parts::receive_datagram(ConnectionId id, Bytes datagram) {
-  if (id >= connections_.size() || connections_[id].phase != Phase::joined) return;
-  counters_.bytes_received += datagram.size();
-  connections_[id].has_spoken = true;
-  const std::unique_ptr<DatagramWay>& way = federates_[connections_[id].federate].way;
-  Reader reader(datagram);
-  DatagramHead head;
-  bool is_understood = way != nullptr && exchange(reader, head);
-  while (is_understood && !reader.is_at_end()) {
-    std::uint8_t kind = 0;
-    reader.number(kind);
-    if (kind == datagram_end) break;
-    AcknowledgeDatagramsMessage message;
-    is_understood = static_cast<MessageKind>(kind) == MessageKind::acknowledge_datagrams && exchange(reader, message) && way->ledger.acknowledge(message, now_, way->due);
-    if (is_understood && way->has_fallen_back) {
-      way->has_fallen_back = false;
-      ++counters_.datagram_recoveries;
-    }
-  }
-  if (!is_understood) ++counters_.datagrams_ignored;
 }
 
 }  // namespace rink::rti

@@ -135,6 +135,7 @@ Outcome FederationExecution::Parts::take_spare_update(std::uint32_t slot, Reader
   const AttributeSet attributes{message.attributes};
   if (!ownership_.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   objects_[object].valued = objects_[object].valued.without(attributes);
+  if (UpwardWay* way = federates_[slot].upward.get()) way->accept({message.object}, objects_[object].object_class, attributes, order_of_frame(federates_[slot].frames_heard));
   return std::nullopt;
 }
 

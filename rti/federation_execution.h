@@ -75,6 +75,7 @@ struct FederationCounters {
   std::uint64_t management_updates = 0;      ///< of objects of the management object model that the RTI said
   /// Of best-effort updates: datagrams sent (their bytes are in those above), ignored for they made no sense, records sent again since they may have been lost,
   /// and how often a federate's datagrams went unanswered, so that it got everything by the stream, and were answered again.
+  std::uint64_t datagrams_received = 0, updates_outdated = 0;  ///< of federates' own: new ones, and records in them that were older than what is known
   std::uint64_t datagrams_sent = 0, datagrams_ignored = 0, updates_repaired = 0, datagram_fallbacks = 0, datagram_recoveries = 0;
 };
 

@@ -103,6 +103,7 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   is_all_told_ = false;
   const std::uint64_t before = counters_.updates_sent;
   begin_datagrams(federate, outlet);
+  if (federate.upward) acknowledge_datagrams(federate, outlet);
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
   const std::size_t entry_end = scratch_.size() + entry_room(slot, outlet);
   write_scope_events(slot, entry_end);

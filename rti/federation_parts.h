@@ -25,6 +25,7 @@
 #include "rti/baselines/baselines.h"
 #include "rti/buffering/datagram_batch.h"
 #include "rti/datagram_way.h"
+#include "rti/upward_way.h"
 
 namespace rink::rti {
 
@@ -64,6 +65,8 @@ class FederationExecution::Parts {
     std::uint32_t frames = 0;          ///< sent to it
     bool has_stream_only = false;      ///< no datagrams, whatever its connection could carry
     std::unique_ptr<DatagramWay> way;  ///< null until it has one
+    std::uint32_t frames_heard = 0;    ///< after the one that asked to join
+    std::unique_ptr<UpwardWay> upward; ///< null until a datagram of its comes
   };
   enum class Phase : std::uint8_t { unknown, connected, joined };
   struct Connection {
@@ -154,6 +157,7 @@ class FederationExecution::Parts {
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
+  void store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values);
   Outcome take_interaction(std::uint32_t slot, Reader& reader);
   /// `regions` are the sender's; none: the default region, which overlaps all.
   Outcome deliver_interaction(std::uint32_t slot, InteractionMessage& message, std::span<const RegionHandle> regions = {});
@@ -258,13 +262,19 @@ class FederationExecution::Parts {
 
   // Best-effort updates by datagram (federation_datagrams.cpp).
   void list_best_effort();
-  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, Bytes values);
+  void append_apart(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values);
   void begin_datagrams(Federate& federate, Outlet& outlet);
   void probe(Federate& federate, Outlet& outlet);
   void write_due_states(std::uint32_t slot);
   bool gather_datagrams(std::size_t run, const FederateInterest& interest);
   void send_datagrams(Federate& federate, Outlet& outlet);
   void receive_datagram(ConnectionId connection, Bytes datagram);
+  // Those of federates (federation_upward.cpp).
+  bool take_datagram(std::uint32_t slot, Bytes datagram);
+  bool take_datagram_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp, Reader& reader);
+  bool take_acknowledgement(std::uint32_t slot, Reader& reader);
+  void take_held_datagrams(std::uint32_t slot);
+  void acknowledge_datagrams(Federate& federate, Outlet& outlet);
   std::vector<AttributeSet> best_effort_;  ///< by class
   bool has_best_effort_ = false;           ///< any at all
   bool has_ways_ = false;                  ///< some federate had a way

@@ -34,7 +34,11 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
 Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
   ++counters_.frames_received;
   connections_[id].has_spoken = true;
-  if (connections_[id].phase == Phase::joined) federates_[connections_[id].federate].stamp.reset();  // a stamp is good for its frame
+  if (connections_[id].phase == Phase::joined) {
+    Federate& sender = federates_[connections_[id].federate];
+    sender.stamp.reset();  // a stamp is good for its frame
+    ++sender.frames_heard;
+  }
   Reader reader(frame);
   while (!reader.is_at_end() && connections_[id].phase != Phase::unknown) {
     if (connections_[id].phase == Phase::joined) {
@@ -46,6 +50,9 @@ Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {
     const bool is_join = static_cast<MessageKind>(kind) == MessageKind::join;
     if (const Outcome outcome = is_join ? join(id, reader) : answer_stranger(id, static_cast<MessageKind>(kind), reader)) return outcome;
   }
+  if (connections_[id].phase != Phase::joined) return std::nullopt;
+  const std::uint32_t slot = connections_[id].federate;
+  if (federates_[slot].upward && !federates_[slot].upward->held.empty()) take_held_datagrams(slot);
   return std::nullopt;
 }
 
@@ -164,6 +171,7 @@ void FederationExecution::Parts::delete_object(ObjectSlot object) {
   if (object < inherited_.size()) inherited_[object] = {};
   for (std::uint32_t i = 0; i < federates_.size(); ++i) {
     if (federates_[i].is_joined) interest_.of(i).unannounced.erase(object);
+    if (federates_[i].upward) federates_[i].upward->arrivals.leave(objects_[object].handle);
     if (!federates_[i].is_joined || !interest_.of(i).known.contains(object)) continue;
     interest_.of(i).known.erase(object);
     ++federates_[i].objects_removed;
@@ -208,11 +216,18 @@ Outcome FederationExecution::Parts::take_update(std::uint32_t slot, const Update
   if (objects_[object].owner != slot && !ownership_.owned_by(slot, object).includes(AttributeSet(message.attributes))) return Violation::not_owned;
   Federate& owner = federates_[slot];
   owner.newest = *owner.stamp;
-  objects_.store(object, AttributeSet(message.attributes), values);
-  if (has_ways_) append_apart(slot, object, AttributeSet(message.attributes), values);
-  else buffering_->append(slot, object, objects_[object], AttributeSet(message.attributes), owner.newest, values);
-  ++counters_.updates_received;
+  if (owner.upward) owner.upward->accept(handle, message.object_class, AttributeSet(message.attributes), order_of_frame(owner.frames_heard));
+  store_update(slot, object, AttributeSet(message.attributes), owner.newest, values);
   return std::nullopt;
+}
+
+void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp, Bytes values) {
+  Federate& owner = federates_[slot];
+  if (stamp.time >= owner.newest.time) owner.newest = stamp;  // a datagram may be late
+  objects_.store(object, attributes, values);
+  if (has_ways_) append_apart(slot, object, attributes, stamp, values);
+  else buffering_->append(slot, object, objects_[object], attributes, stamp, values);
+  ++counters_.updates_received;
 }
 
 Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader& reader) {

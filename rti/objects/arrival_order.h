@@ -21,6 +21,9 @@ class ArrivalOrder {
   }
 
   AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
+  /// True if some class has such attributes.
+  bool has_best_effort() const { return stride_ > 0; }
+  bool contains(ObjectHandle object) const { return places_.find(object) != nullptr; }
 
   /// From now on everything older than `order` is.
   void enter(ObjectHandle object, std::uint16_t object_class, std::uint64_t order) {

@@ -7,17 +7,16 @@ namespace rink::rti {
 
 void send_waiting(Ambassador& ambassador, Transport& transport, ConnectionId connection) {
   const std::size_t datagram_max = transport.datagram_max(connection);
-  if (datagram_max > 0) ambassador.expect_datagrams();
-  if (const Bytes datagram = ambassador.outgoing_datagram(); !datagram.empty()) {
-    const Datagram whole{datagram, {}};
-    if (datagram_max >= datagram.size()) transport.send_datagrams(connection, std::span(&whole, 1));
-    transport.push();
-    ambassador.clear_outgoing_datagram();
+  ambassador.expect_datagrams(datagram_max);
+  const std::span<const Datagram> datagrams = ambassador.outgoing_datagrams();
+  if (const Bytes waiting = ambassador.outgoing(); !waiting.empty()) {
+    transport.send(connection, std::span(&waiting, 1));
+    ambassador.clear_outgoing();
   }
-  const Bytes waiting = ambassador.outgoing();
-  if (waiting.empty()) return;
-  transport.send(connection, std::span(&waiting, 1));
-  ambassador.clear_outgoing();
+  if (datagrams.empty()) return;
+  if (datagram_max > 0) transport.send_datagrams(connection, datagrams);
+  transport.push();
+  ambassador.clear_outgoing_datagrams();
 }
 
 void FederateLink::received(Bytes bytes) {

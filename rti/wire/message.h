@@ -19,7 +19,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 6;
+inline constexpr std::uint16_t protocol_version = 7;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]

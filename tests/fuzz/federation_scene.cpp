@@ -204,8 +204,9 @@ class Air final : public Outlet {
       ambassador.advance_clock(now_);
       execution_.receive(who, ambassador.outgoing());
       ambassador.clear_outgoing();
-      if (!ambassador.outgoing_datagram().empty()) execution_.receive_datagram(who, ambassador.outgoing_datagram());
-      ambassador.clear_outgoing_datagram();
+      ambassador.expect_datagrams(1191);
+      for (const Datagram& each : ambassador.outgoing_datagrams()) execution_.receive_datagram(who, each.head);
+      ambassador.clear_outgoing_datagrams();
     }
     execution_.advance_clock(now_);
     execution_.match();

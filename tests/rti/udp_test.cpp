@@ -243,7 +243,8 @@ TEST(Udp, AFederationsBestEffortUpdatesTakeItAndAllElseTheStream) {
     round();
   }
   for (int i = 0; i < 300; ++i) round();
-  std::uint64_t received = 0;
+  EXPECT_GE(execution.counters().datagrams_received, 50u) << "the owner's own go by datagram too";
+  std::uint64_t received = stations[0].ambassador.counters().datagrams_received;  // acknowledgements of its own
   for (std::size_t i = 1; i < 5; ++i) {
     received += stations[i].ambassador.counters().datagrams_received;
     EXPECT_EQ(stations[i].heard.objects.size(), 300u);
@@ -253,6 +254,66 @@ TEST(Udp, AFederationsBestEffortUpdatesTakeItAndAllElseTheStream) {
   EXPECT_EQ(received, execution.counters().datagrams_sent) << "loopback loses nothing";
   EXPECT_EQ(execution.counters().updates_repaired, 0u);
   EXPECT_EQ(execution.counters().datagram_fallbacks, 0u);
+}
+
+/// An owner and a listener over real datagrams in either direction.
+TEST(Udp, AnAttributesTransportationMayChangeWhileItIsUpdated) {
+  const ObjectClassHandle tide = *harbour().object_class("Tide");
+  const AttributeSet level = harbour().attributes(tide);
+  UdpTransport server, clients;
+  FederationExecution execution(harbour(), {});
+  FederationHost host(execution);
+  host.add(server);
+  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  std::deque<Station> stations;
+  FederateLinks links;
+  double now = 0.0, value = 0.0;
+  const auto round = [&] {
+    now += 0.005;
+    links.flush(now);
+    host.poll(200us);
+    host.advance_clock(now);
+    host.match();
+    host.flush();
+    clients.poll(200us, links);
+  };
+  for (int i = 0; i < 2; ++i) {
+    Station& station = stations.emplace_back(harbour());
+    station.link = std::make_unique<FederateLink>(station.ambassador, clients, clients.connect("127.0.0.1", port));
+    links.add(*station.link);
+    station.ambassador.join("rink", "station " + std::to_string(i), "");
+    if (i == 0) station.ambassador.publish_object_class_attributes(tide, level);
+    else station.ambassador.subscribe_object_class_attributes(tide, level);
+  }
+  for (int i = 0; i < 2000 && (execution.federate_count() < 2 || server.udp_counters().ways_opened < 2); ++i) round();
+  ASSERT_EQ(server.udp_counters().ways_opened, 2u);
+  for (int i = 0; i < 20; ++i) round();
+  const ObjectHandle gauge = stations[0].ambassador.register_object_instance(tide);
+  const auto update = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      stations[0].ambassador.update_attribute_values(gauge, level, values_of(value += 1.0), {now, 0});
+      for (int k = 0; k < 4; ++k) round();
+    }
+    for (int k = 0; k < 40; ++k) round();  // all acknowledged
+    EXPECT_EQ(stations[1].heard.objects.at(gauge.value).values.at(0), values_of(value));
+  };
+  const auto up = [&] { return execution.counters().datagrams_received; };
+  const auto down = [&] { return stations[1].ambassador.counters().datagrams_received; };
+  update(20);
+  const std::uint64_t up_first = up(), down_first = down();
+  EXPECT_GE(up_first, 15u);
+  EXPECT_GE(down_first, 15u);
+  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level, Transportation::reliable);
+  update(20);
+  EXPECT_EQ(up(), up_first) << "by the stream from the request on";
+  EXPECT_LE(down(), down_first + 1);
+  const std::uint64_t down_second = down();
+  stations[0].ambassador.request_attribute_transportation_type_change(gauge, level, Transportation::best_effort);
+  for (int k = 0; k < 40; ++k) round();
+  update(20);
+  EXPECT_GE(up(), up_first + 15);
+  EXPECT_GE(down(), down_second + 15);
+  EXPECT_EQ(execution.counters().updates_outdated + stations[1].ambassador.counters().updates_outdated, 0u);
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// A federate's own best-effort updates on their way to the RTI by datagram: what goes out, what is unsettled, and the newest value of each, should it be lost.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rti/buffering/datagram_batch.h"
+#include "rti/datagram_way.h"
+#include "rti/objects/object_map.h"
+
+namespace rink::rti {
+
+/// Made when there is a way. It keeps the newest value of each best-effort attribute that it sent, as long as the object is ours: a repair sends that, not what was lost.
+class BestEffortOutbox {
+ public:
+  static constexpr std::size_t size_min = 256;  ///< less is no use for a way [bytes]
+
+  explicit BestEffortOutbox(const Fom& fom);
+
+  /// The most bytes that a datagram may have now; 0 while there is no way.
+  void set_size(std::size_t size_max) { size_max_ = size_max; }
+  bool is_usable() const { return size_max_ >= size_min && !way_.has_fallen_back; }
+  AttributeSet best_effort(ObjectClassHandle object_class) const { return best_effort_[object_class.value]; }
+
+  /// `coded` are the values of `set`, all of them best-effort. False if it does not fit a datagram: then it goes by the stream.
+  bool say(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set, const Stamp& stamp, Bytes coded);
+  /// True if some have not been sealed: a frame that is written now counts as said before them.
+  bool is_pending() const { return !batch_.is_empty(); }
+  /// What is pending was said after `frames` frames.
+  void seal(std::uint32_t frames, double now);
+
+  /// The newest value of one attribute, coded, and when it was said.
+  struct Value {
+    Stamp stamp;
+    std::vector<std::byte> coded;
+  };
+  struct Kept {
+    std::uint16_t object_class = 0;
+    AttributeSet attributes;
+    std::vector<Value> values;  ///< by attribute
+  };
+  const Kept* find(ObjectHandle object) const { return kept_.find(object); }
+  /// Objects of which anything is kept.
+  std::vector<ObjectHandle> list() const;
+  /// They go by another way from now on, or nowhere.
+  void forget(ObjectHandle object, AttributeSet attributes);
+
+  /// False if it acknowledges what was never sent. A way that had fallen back is open again.
+  bool acknowledge(const AcknowledgeDatagramsMessage& message, double now);
+  /// Whether datagrams went unanswered for too long; then all that is unsettled is `due`, and a probe asks now and then.
+  void advance_clock(double now, std::uint32_t frames);
+  /// What was lost, to be said again as it is now. Taken by the caller.
+  std::vector<DatagramLedger::Lost>& due() { return way_.due; }
+
+  /// Sealed datagrams, valid until `clear`.
+  std::span<const Datagram> datagrams();
+  void clear();
+
+  std::uint64_t sent = 0, fallbacks = 0, recoveries = 0;
+  std::size_t memory_bytes() const { return kept_.memory_bytes() + bytes_.capacity(); }
+
+ private:
+  void begin() { batch_.begin(size_max_ - DatagramHead::size); }
+
+  std::vector<AttributeSet> best_effort_;  ///< by class
+  const Fom& fom_;
+  DatagramBatch batch_;
+  DatagramWay way_{batch_.lists()};
+  std::size_t size_max_ = 0;
+  ObjectMap<Kept> kept_;
+  std::vector<std::byte> bytes_;     ///< of sealed datagrams
+  std::vector<std::size_t> ends_;    ///< where each of them ends
+  std::vector<Datagram> sealed_;
+};
+
+}  // namespace rink::rti
