@@ -22,7 +22,7 @@ class UdpRelay {
  public:
   /// Writes to `record` in the second reader's form. `is_lost(is_up, bytes)` is asked of each datagram.
   UdpRelay(std::uint16_t server_port, std::uint32_t number, std::string& record, std::function<bool(bool, Bytes)> is_lost)
-      : server_port_(server_port), number_(number), record_(record), is_lost_(std::move(is_lost)), door_(socket_of(SOCK_STREAM)), client_facing_(socket_of(SOCK_DGRAM)), server_facing_(socket_of(SOCK_DGRAM)) {
+      : server_port_(server_port), number_(number), record_(record), is_lost_(std::move(is_lost)) {
     for (const File* each : {&door_, &client_facing_, &server_facing_}) bind_to_loopback(*each);
     EXPECT_EQ(::listen(door_.number(), 1), 0);
   }
@@ -100,7 +100,7 @@ class UdpRelay {
   std::uint32_t number_;
   std::string& record_;
   std::function<bool(bool, Bytes)> is_lost_;
-  File door_, client_facing_, server_facing_, client_, server_;
+  File door_ = socket_of(SOCK_STREAM), client_facing_ = socket_of(SOCK_DGRAM), server_facing_ = socket_of(SOCK_DGRAM), client_, server_;
   sockaddr_in client_place_{};
   bool has_greeting_ = false;
   std::byte buffer_[65536];
