@@ -10,6 +10,7 @@
 #include "rti/wire/update_block.h"
 #include "tests/fuzz/federation_scene.h"
 #include "tests/fuzz/harness.h"
+#include "tests/fuzz/service_scene.h"
 #include "tests/rti/fjord.h"
 #include "tests/rti/rig.h"
 
@@ -155,9 +156,13 @@ void handshakes(Bytes bytes) {
 }  // namespace
 
 std::span<const Harness> rti_harnesses() {
-  static constexpr std::array<Harness, 9> list{{{"federation", drive_federation},
+  static constexpr std::array<Harness, 13> list{{{"federation", drive_federation},
                                                 {"federate", drive_federate},
                                                 {"datagrams", drive_datagrams},
+                                                {"time", drive_time},
+                                                {"ownership", drive_ownership},
+                                                {"regions", drive_regions},
+                                                {"baselines", drive_baselines},
                                                 {"handshake", handshakes},
                                                 {"directory", directories},
                                                 {"frames", frames},

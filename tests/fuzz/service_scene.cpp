@@ -1,0 +1,322 @@
+// Messages by their shapes, and who must not suffer from them.
+#include "tests/fuzz/service_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <memory>
+#include <string_view>
+
+#include "rti/wire/update_block.h"
+#include "tests/fuzz/harness.h"
+#include "tests/rti/rig.h"
+
+namespace rink::fuzz {
+namespace {
+
+using namespace rti;
+using rti::testing::harbour;
+using rti::testing::Recorder;
+
+const AttributeSet motion{rti::testing::position, rti::testing::speed};
+
+/// One message of a group: its kind, and a letter for each field (`Scribe::field`).
+struct Shape {
+  MessageKind kind;
+  std::string_view fields;
+};
+
+/// Makes messages from a fuzzer's bytes.
+class Scribe {
+ public:
+  Scribe(Input& input, const std::vector<std::uint32_t>& objects) : input_(input), objects_(objects) {}
+  std::vector<std::byte> message(const Shape& shape) {
+    bytes_.assign(1, static_cast<std::byte>(shape.kind));
+    for (const char letter : shape.fields) field(letter);
+    return bytes_;
+  }
+
+ private:
+  template <class Number>
+  void put(Number value) {
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof value);
+  }
+  void varint(std::uint64_t value) { Writer(bytes_).varint(value); }
+  std::uint32_t object() { return objects_[input_.byte() % objects_.size()]; }
+  double time() { return (static_cast<double>(input_.byte()) - 8.0) / 4.0; }
+  std::uint32_t region() {
+    const unsigned byte = input_.byte();
+    return byte > 250 ? ~0u : byte % 6;
+  }
+  void regions(bool has_attributes) {
+    const auto count = static_cast<std::uint16_t>(input_.byte() % 4);
+    put(count);
+    for (int i = 0; i < count; ++i) {
+      if (has_attributes) put(std::uint32_t{input_.byte() % 8});
+      put(region());
+    }
+  }
+  void raw() {
+    const Bytes part = input_.part(input_.byte() % 24);
+    put(static_cast<std::uint16_t>(part.size()));
+    bytes_.insert(bytes_.end(), part.begin(), part.end());
+  }
+  void stamp(double at) {
+    StampMessage message{{at, 0}};
+    Writer writer(bytes_);
+    exchange(writer, message);
+  }
+  /// A whole message in time-stamp order.
+  void content() {
+    std::vector<std::byte> outer;
+    outer.swap(bytes_);
+    const unsigned what = input_.byte() % 3;
+    if (what == 0) {
+      UpdatesMessage message{static_cast<std::uint16_t>(rti::testing::vessel.value), AttributeSet{rti::testing::speed}.bits};
+      write(bytes_, message);
+      varint(handle_step(0, object()));
+      put(1.0f);
+      bytes_.push_back(std::byte{0});
+    } else if (what == 1) {
+      InteractionMessage message{static_cast<std::uint16_t>(rti::testing::hail.value), FederateHandle::none, {}, {}};
+      write(bytes_, message);
+    } else {
+      DeleteObjectMessage message{object()};
+      write(bytes_, message);
+    }
+    outer.swap(bytes_);
+    put(static_cast<std::uint16_t>(outer.size()));
+    bytes_.insert(bytes_.end(), outer.begin(), outer.end());
+  }
+  void field(char letter) {
+    switch (letter) {
+      case 'b': return put(static_cast<std::uint8_t>(input_.byte() % 10));
+      case 'w': return put(static_cast<std::uint16_t>(input_.byte() % 8));
+      case 'd': return put(time());
+      case 'q': return put(std::uint64_t{input_.byte() % 4});
+      case 'v': return varint(input_.byte());
+      case 'a': return put(std::uint32_t{input_.byte() % 8});
+      case 'A': return varint(1 + input_.byte() % 7);
+      case 'o': return varint(object());
+      case 'u': return put(object());
+      case 'r': return put(region());
+      case 's': return stamp(time());
+      case 't': return raw();
+      case 'c': return content();
+      case 'p': return regions(true);
+      case 'l': return regions(false);
+      case 'O': {
+        std::uint32_t last = 0;
+        for (unsigned left = 1 + input_.byte() % 3; left > 0; --left) {
+          const std::uint32_t next = object();
+          varint(handle_step(last, next));
+          last = next;
+        }
+        return varint(0);
+      }
+      case 'g': {
+        const auto count = static_cast<std::uint8_t>(input_.byte() % 3);
+        put(count);
+        for (int i = 0; i < count; ++i) {
+          const double low = time();
+          put(low);
+          put(low + std::abs(time()));
+        }
+        return;
+      }
+      default: require(false, "a field's letter is known");
+    }
+  }
+
+  Input& input_;
+  const std::vector<std::uint32_t>& objects_;
+  std::vector<std::byte> bytes_;
+};
+
+/// The witness, who notes what time and ownership do to it.
+struct Witness : Recorder {
+  double time = 0.0;
+  int discovered_twice = 0;
+  void time_advance_grant(LogicalTime now) override {
+    require(now.value >= time, "time does not go back");
+    time = now.value;
+  }
+  void receive_interaction_with_time(InteractionClassHandle, Bytes, FederateHandle, const TimedStamp& timed) override {
+    require(!timed.is_in_order || timed.stamp.time >= time, "nothing comes in order that is older than one's time");
+  }
+  void reflect_attribute_values_with_time(ObjectHandle, AttributeSet, Bytes, const TimedStamp& timed) override {
+    require(!timed.is_in_order || timed.stamp.time >= time, "no value comes in order that is older than one's time");
+  }
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle object_class, std::string_view name) override {
+    require(!objects.contains(object.value), "an object is discovered once");
+    Recorder::discover_object_instance(object, object_class, name);
+  }
+};
+
+class Quay final : public Outlet {
+ public:
+  static constexpr ConnectionId stranger_count = 2;
+  Quay() : execution_(harbour(), {.federation = "rink", .filter = "region", .filter_settings = {}, .federate_max = 4, .object_max = 64, .objects_per_federate_max = 64, .patience = {}}) {
+    execution_.connect(0);
+    witness.join("rink", "witness", "tester");
+    tick();
+    set_up(witness);
+    own = witness.register_object_instance(rti::testing::vessel, "own");
+    objects_.push_back(own.value);
+    tick();
+    for (ConnectionId who = 1; who <= stranger_count; ++who) enter(who);
+  }
+  Witness heard;
+  Ambassador witness{harbour(), heard};
+  ObjectHandle own;
+  FederationExecution& execution() { return execution_; }
+
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    for (const Bytes part : parts) {
+      if (connection == 0) require(witness.receive(part), "the witness understands what it hears");
+      else if (strangers_[connection].entering) strangers_[connection].entering->receive(part);
+    }
+  }
+  void drop(ConnectionId connection, std::string_view) override {
+    require(connection != 0, "the witness stays");
+    strangers_[connection].is_here = false;
+  }
+  void tick() {
+    now_ += 0.125;
+    witness.advance_clock(now_);
+    execution_.receive(0, witness.outgoing());
+    witness.clear_outgoing();
+    for (ConnectionId who = 1; who <= stranger_count; ++who)
+      if (strangers_[who].is_here) execution_.receive(who, heartbeat());
+    execution_.advance_clock(now_);
+    execution_.match();
+    execution_.flush(*this);
+  }
+  void turn(Input& input, std::span<const Shape> shapes) {
+    const unsigned first = input.byte();
+    if (first >= 224) return tick();
+    const ConnectionId who = 1 + first % stranger_count;
+    if (!strangers_[who].is_here) return enter(who);
+    const unsigned which = first / stranger_count % (static_cast<unsigned>(shapes.size()) + 1);
+    if (which == shapes.size()) return say(who, input.part(input.byte() % 48));
+    say(who, Scribe(input, objects_).message(shapes[which]));
+  }
+
+ private:
+  struct Stranger {
+    bool is_here = false;
+    Recorder heard;
+    std::unique_ptr<Ambassador> entering;  ///< speaks for it until it is set up
+  };
+  static void set_up(Ambassador& ambassador) {
+    ambassador.publish_object_class_attributes(rti::testing::vessel, motion);
+    ambassador.subscribe_object_class_attributes(rti::testing::vessel, motion);
+    ambassador.publish_interaction_class(rti::testing::hail);
+    ambassador.subscribe_interaction_class(rti::testing::hail);
+  }
+  static Bytes heartbeat() {
+    static const std::array<std::byte, 5> frame{std::byte{1}, std::byte{}, std::byte{}, std::byte{}, static_cast<std::byte>(MessageKind::heartbeat)};
+    return frame;
+  }
+  /// Joins by rule, with an object of its own, which no fuzzer would find.
+  void enter(ConnectionId who) {
+    Stranger& stranger = strangers_[who];
+    stranger.is_here = true;
+    execution_.connect(who);
+    stranger.heard = {};
+    stranger.entering = std::make_unique<Ambassador>(harbour(), stranger.heard);
+    const auto speak = [&] {
+      execution_.receive(who, stranger.entering->outgoing());
+      stranger.entering->clear_outgoing();
+      tick();
+    };
+    stranger.entering->join("rink", "stranger " + std::to_string(who), "stranger");
+    speak();
+    if (!stranger.is_here || !stranger.entering->is_joined()) return void(stranger.entering.reset());
+    set_up(*stranger.entering);
+    const ObjectHandle object = stranger.entering->register_object_instance(rti::testing::vessel);
+    if (objects_.size() < 64) objects_.push_back(object.value);
+    speak();
+    stranger.entering.reset();
+  }
+  void say(ConnectionId who, Bytes message) {
+    if (message.empty()) return;
+    std::vector<std::byte> frame(frame_header_size + message.size());
+    const auto length = static_cast<std::uint32_t>(message.size());
+    std::memcpy(frame.data(), &length, sizeof length);
+    std::memcpy(frame.data() + frame_header_size, message.data(), message.size());
+    execution_.receive(who, frame);
+  }
+
+  FederationExecution execution_;
+  std::array<Stranger, stranger_count + 1> strangers_;
+  std::vector<std::uint32_t> objects_;
+  double now_ = 0.0;
+};
+
+}  // namespace
+
+void drive_time(Bytes bytes) {
+  static constexpr std::array shapes{Shape{MessageKind::enable_time_regulation, "d"}, Shape{MessageKind::time_switch, "b"},   Shape{MessageKind::modify_lookahead, "d"},
+                                     Shape{MessageKind::advance_request, "bd"},       Shape{MessageKind::timed_send, "vsc"}, Shape{MessageKind::retract, "v"},
+                                     Shape{MessageKind::query_time_bounds, ""},       Shape{MessageKind::timed_send, "vsc"}};
+  Input input(bytes);
+  Quay quay;
+  quay.witness.enable_time_constrained();
+  quay.tick();
+  double asked = 0.0;
+  bool is_asking = false;
+  while (!input.is_empty()) {
+    quay.turn(input, shapes);
+    is_asking = is_asking && quay.heard.time < asked;
+    if (is_asking || !quay.witness.clock().is_constrained()) continue;
+    is_asking = true;
+    quay.witness.time_advance_request(LogicalTime(asked = quay.heard.time + 1.0));
+  }
+  quay.tick();
+  require(quay.witness.is_joined(), "the witness is there at the end");
+}
+
+void drive_ownership(Bytes bytes) {
+  static constexpr std::array shapes{Shape{MessageKind::ownership_request, "bAtO"}, Shape{MessageKind::query_ownership, "ob"}, Shape{MessageKind::resign_directive, "b"},
+                                     Shape{MessageKind::publish_object_class, "wa"}, Shape{MessageKind::delete_object, "o"},    Shape{MessageKind::ownership_request, "bAtO"},
+                                     Shape{MessageKind::local_delete, "o"}};
+  Input input(bytes);
+  Quay quay;
+  while (!input.is_empty()) {
+    quay.turn(input, shapes);
+    for (const AttributeHandle each : {rti::testing::position, rti::testing::speed}) require(quay.witness.is_attribute_owned_by_federate(quay.own, each), "what one owns is lost by one's own word only");
+  }
+  quay.tick();
+  quay.witness.query_attribute_ownership(quay.own, rti::testing::speed);
+  quay.tick();
+  quay.tick();
+  const auto owner = quay.heard.owners.find({quay.own.value, rti::testing::speed.value});
+  require(owner != quay.heard.owners.end() && owner->second == quay.witness.federate().value, "and the RTI knows it");
+}
+
+void drive_regions(Bytes bytes) {
+  static constexpr std::array shapes{Shape{MessageKind::create_region, "r"},       Shape{MessageKind::create_region_over, "rq"}, Shape{MessageKind::modify_ranges, "rg"},
+                                     Shape{MessageKind::regional_class, "wbp"},    Shape{MessageKind::regional_interaction, "wbl"}, Shape{MessageKind::associate_regions, "ubp"},
+                                     Shape{MessageKind::interaction_within, "wslt"}, Shape{MessageKind::associate_region, "ur"},  Shape{MessageKind::delete_region, "r"},
+                                     Shape{MessageKind::subscribe_object_class, "war"}};
+  Input input(bytes);
+  Quay quay;
+  const RegionHandle view = quay.witness.create_region();
+  quay.witness.unsubscribe_object_class(rti::testing::vessel);
+  quay.witness.subscribe_object_class_attributes(rti::testing::vessel, motion, view);
+  for (int i = 0; !input.is_empty(); ++i) {
+    if (i % 4 == 0) {
+      quay.witness.set_region(view, {-2.0, -2.0, 0.25 * (i % 64), 8.0});
+      quay.witness.commit_region_modifications(view);
+    }
+    quay.turn(input, shapes);
+  }
+  quay.tick();
+  quay.tick();
+  for (const auto& [object, known] : quay.heard.objects)
+    if (object != quay.own.value) require(known.is_in_scope == quay.execution().is_in_scope(quay.witness.federate(), {object}), "the witness knows its scope");
+}
+
+}  // namespace rink::fuzz
