@@ -33,6 +33,9 @@ void Parts::set_subscriber_flight(Subscriber subscriber, const Flight& flight) {
 void Parts::set_time(double now) {
   for (const auto& part : parts_) part->set_time(now);
 }
+void Parts::share_with(Worker* worker) {
+  for (const auto& part : parts_) part->share_with(worker);
+}
 
 double Parts::cell_size() const {
   double smallest = 0.0;

@@ -26,6 +26,8 @@ class Parts : public Filter {
   void set_flight(Entity entity, const Flight& flight) override;
   void set_subscriber_flight(Subscriber subscriber, const Flight& flight) override;
   void set_time(double now) override;
+  /// They match one after the other, so one worker serves them all.
+  void share_with(Worker* worker) override;
 
   /// Of the first part.
   std::span<const Stay> stays() const override { return parts_.front()->stays(); }
