@@ -49,6 +49,9 @@ void Assembly::advance() {
       if (peer.repeats(peer.number())) peer.replay();
   }
   ++count_;
+  if (next_division_)
+    for (Peer& peer : peers_) peer.divide(*next_division_);
+  next_division_.reset();
   const double next = window_ * static_cast<double>(count_ + 1);
   exchange_all([&](Peer& from, PeerNumber to) { return from.arrivals_for(to, next); });
   for (Peer& peer : peers_) peer.commit(next);

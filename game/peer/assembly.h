@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "game/peer/peer.h"
@@ -16,6 +17,8 @@ class Assembly {
 
   /// Before the first window: when keys change.
   void press(const Key& key);
+  /// From the end of the next window on, zones are these; for as many peers as there are.
+  void divide(const Division& division) { next_division_ = division; }
   /// Plays one window, repeated as often as it takes.
   void advance();
 
@@ -36,6 +39,7 @@ class Assembly {
   std::deque<Peer> peers_;
   std::vector<PeerNumber> owners_;
   double window_;
+  std::optional<Division> next_division_;
   std::uint64_t count_ = 0;
   std::uint32_t misowned_ = 0;
   bool has_begun_ = false;

@@ -92,4 +92,41 @@ Cuts Cuts::without(PeerNumber peer) const {
   return cuts;
 }
 
+std::optional<Cuts> Cuts::balanced(std::span<const double> loads, double tolerance) const {
+  Cuts cuts = *this;
+  const Box whole{0.0, 0.0, field_.length, field_.width};
+  return cuts.shift(root_, whole, whole, loads, tolerance) ? std::optional(std::move(cuts)) : std::nullopt;
+}
+
+/// Of a part that was `from` and becomes `to`, in which cuts stay where they were in proportion. Whether any part was out of balance.
+bool Cuts::shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads, double tolerance) {
+  if (is_leaf(node)) return false;
+  Node& here = nodes_[node];
+  const auto [below_from, above_from] = parts_of(from, here.is_along_x, here.side);
+  const auto low_of = [&](const Box& box) { return here.is_along_x ? box.low_x : box.low_y; };
+  const auto high_of = [&](const Box& box) { return here.is_along_x ? box.high_x : box.high_y; };
+  const auto load_of = [&](const std::vector<PeerNumber>& peers) {
+    double load = 0.0;
+    for (const PeerNumber peer : peers) load += loads[peer];
+    return load;
+  };
+  const std::vector<PeerNumber> below = peers_below(here.low), above = peers_below(here.high);
+  const double p = static_cast<double>(below.size()), q = static_cast<double>(above.size()), low_load = load_of(below), high_load = load_of(above);
+  const double low = low_of(to), extent = high_of(to) - low, share = p / (p + q);
+  double part = (here.side - low_of(from)) / (high_of(from) - low_of(from));
+  const bool is_uneven = std::max(low_load / p, high_load / q) > tolerance * (low_load + high_load) / (p + q);
+  if (is_uneven) {
+    constexpr double damping = 0.5, least = 0.1;
+    const double surplus = low_load * (1.0 - share) - high_load * share;  // of the lower part
+    part += damping * (surplus > 0.0 ? -surplus / low_load * part : -surplus / high_load * (1.0 - part));
+    part = std::clamp(part, least * share, 1.0 - least * (1.0 - share));
+  }
+  // Where nothing moves, no digit does.
+  const bool is_moved = is_uneven || low_of(from) != low_of(to) || high_of(from) != high_of(to);
+  if (is_moved) here.side = low + part * extent;
+  const auto [below_to, above_to] = parts_of(to, here.is_along_x, here.side);
+  const bool is_below_uneven = shift(here.low, below_from, below_to, loads, tolerance), is_above_uneven = shift(here.high, above_from, above_to, loads, tolerance);
+  return is_uneven || is_below_uneven || is_above_uneven;
+}
+
 }  // namespace rink::peer

@@ -1,6 +1,7 @@
 // A field cut in two, and its parts again, down to one zone for each peer: a division that can change by little.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ class Cuts {
   bool has(PeerNumber peer) const;
   /// `peer` must have a zone, and not be the only one (both asserted).
   Cuts without(PeerNumber peer) const;
+  /// Each cut moved half of the way to where its parts' loads per peer would be equal if each were spread evenly, provided that one of them is above `tolerance` times the mean; a
+  /// part keeps a tenth of its fair share of the room. `loads`: of each peer, by number. The same for all who know these; nothing if no cut moves.
+  std::optional<Cuts> balanced(std::span<const double> loads, double tolerance) const;
 
  private:
   /// A leaf's `low` is its own place in the list.
@@ -33,6 +37,7 @@ class Cuts {
   std::size_t cut(const Box& box, std::span<Vector2> places, PeerNumber first, PeerNumber peer_count);
   void lay_out(std::size_t node, const Box& box, std::vector<Zone>& zones) const;
   std::vector<PeerNumber> peers_below(std::size_t node) const;
+  bool shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads, double tolerance);
 
   physics::Field field_;
   std::vector<Node> nodes_;

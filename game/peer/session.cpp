@@ -2,6 +2,7 @@
 #include "game/peer/session.h"
 
 #include <cassert>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -85,10 +86,10 @@ void Session::play_window() {
   State next = now_;
   const auto when_final = [&] {
     next = after_window();
-    const bool is_same = std::all_of(next.members.begin(), next.members.end(), [&](PeerNumber peer) { return next.cuts.has(peer) == now_.cuts.has(peer); });
-    if (is_same) return;
+    if (next.zones == now_.zones) return;
     division_ = next.cuts.division(settings_.peer_count);
     peer_->divide(division_);
+    counters_.shifts += next.members.size() == now_.members.size();
   };
   // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way.
   const auto agree_all = [&] { settings_.is_mirrored ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
@@ -115,9 +116,25 @@ Session::State Session::after_window() const {
   std::erase_if(next.members, [&](PeerNumber peer) { return !now_.cuts.has(peer); });
   for (const PeerNumber peer : now_.members) {
     const bool is_last = std::none_of(next.members.begin(), next.members.end(), [&](PeerNumber other) { return other != peer && next.cuts.has(other); });
-    if (is_member(peer, next) && peer_->verdict_of(peer).leaves && !is_last) next.cuts = next.cuts.without(peer);
+    if (is_member(peer, next) && peer_->verdict_of(peer).leaves && !is_last) next.cuts = next.cuts.without(peer), ++next.zones;
   }
+  if (settings_.balance_windows > 0) balance(next);
   return next;
+}
+
+/// By what all have told all. What differs by chance alone, three standard deviations of a Poisson number, moves nothing.
+void Session::balance(State& next) const {
+  constexpr double tolerance = 1.1, deviations = 3.0;
+  next.events.resize(settings_.peer_count, 0.0);
+  for (const PeerNumber peer : now_.members) next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
+  if (++next.counted_windows < settings_.balance_windows) return;
+  const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0), mean = all / static_cast<double>(next.members.size());
+  if (next.zones == now_.zones && mean > 0.0) {
+    auto shifted = next.cuts.balanced(next.events, tolerance + deviations / std::sqrt(mean));
+    if (shifted) next.cuts = std::move(*shifted), ++next.zones;
+  }
+  next.counted_windows = 0;
+  next.events.clear();
 }
 
 /// The own part is kept here and by another, and those of others here, as they are with the step that leads to `next`.

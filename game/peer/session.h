@@ -36,6 +36,7 @@ struct SessionSettings {
   bool is_mirrored = true;                  ///< whether each part is kept by another peer, too; otherwise a loss ends all
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
+  std::uint32_t balance_windows = 0;        ///< after so many windows zones shift toward equal events per peer; 0: they stay
   std::vector<Key> keys{};                  ///< that all know from the start, of all bats
   std::vector<Seat> seats{};
 };
@@ -44,6 +45,7 @@ struct SessionCounters {
   PeerCounters peer;
   std::uint64_t mirror_bytes = 0, recovery_bytes = 0;  ///< sent
   std::uint64_t recoveries = 0;                        ///< that came to an end
+  std::uint64_t shifts = 0;                            ///< of zones, toward balance
 };
 
 /// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of anybody else, since each step needs a message from everyone, so all can go back to
@@ -83,6 +85,9 @@ class Session {
     std::uint64_t step = 0, window = 0;
     std::vector<PeerNumber> members;  // those who leave among them
     Cuts cuts;
+    std::uint64_t zones = 0;            // how often they changed
+    std::uint32_t counted_windows = 0;  // in which the events are counted, by peer
+    std::vector<double> events{};
   };
   struct Sent {
     std::uint64_t window;  // with whose claims it went
@@ -97,6 +102,7 @@ class Session {
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
   void play_window();
   State after_window() const;
+  void balance(State& next) const;
   void mirror(const State& next, PartChange change);
   std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
   void keep_first_parts();

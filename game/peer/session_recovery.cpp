@@ -129,7 +129,7 @@ void Session::rebuild() {
   ++next.step;
   std::erase_if(next.members, [&](PeerNumber peer) { return is_gone(peer); });
   for (const PeerNumber peer : now_.members)
-    if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer);
+    if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer), ++next.zones;
   division_ = next.cuts.division(settings_.peer_count);
   std::vector<Arrivals> shares(settings_.peer_count);
   for (const PeerNumber to : next.members) {

@@ -2,6 +2,9 @@
 #include "game/physics/portion.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <iterator>
+#include <tuple>
 
 #include "game/physics/engine.h"
 
@@ -83,7 +86,10 @@ void Portion::put(std::uint32_t body, const BodyState& s) {
   }
   const Vector2 position = e.at(body, e.now_).position;
   e.grid_.insert(body, position.x(), position.y());
-  e.require_prediction(body);
+  if (!e.is_fixed(body)) return e.require_prediction(body);
+  // Posts look at nobody: those who are there must look at it.
+  for (std::uint32_t other = 0; other < body_count(); ++other)
+    if (is_there(other) && !e.is_fixed(other) && !e.is_gone(other)) e.require_prediction(other);
 }
 
 void Portion::drop(std::uint32_t body) {
@@ -100,9 +106,20 @@ void Portion::drop(std::uint32_t body) {
 
 const std::vector<Hold>& Portion::holds() const { return engine().holds_; }
 
+/// Who gains a contact, loses one, or has one that ends at another time is predicted anew, though its own state be the same.
 void Portion::set_holds(std::vector<Hold> holds) {
+  Engine& e = engine();
+  const auto words = [](const Hold& hold) { return std::tuple(hold.low, hold.high, hold.axis, hold.pull_time, hold.force, hold.turn_time); };
+  const auto is_before = [&](const Hold& a, const Hold& b) { return words(a) < words(b); };
+  std::vector<Hold> before = e.holds_, changed;
+  std::sort(before.begin(), before.end(), is_before);
+  std::sort(holds.begin(), holds.end(), is_before);
+  std::set_symmetric_difference(before.begin(), before.end(), holds.begin(), holds.end(), std::back_inserter(changed), is_before);
+  for (const Hold& hold : changed)
+    for (const Partner partner : {hold.low, hold.high})
+      if (!e.is_fixed(partner) && !e.is_gone(partner)) e.require_prediction(partner);
   std::stable_sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.age < b.age; });
-  engine().holds_ = std::move(holds);
+  e.holds_ = std::move(holds);
 }
 
 std::vector<std::uint32_t> Portion::group_of(std::uint32_t body) const {

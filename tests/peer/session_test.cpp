@@ -31,6 +31,7 @@ class Play {
   /// Told before each advance.
   std::function<void(Session&, PeerNumber)> before_window = [](Session&, PeerNumber) {};
   bool is_live = false;
+  std::uint32_t balance_windows = 0;
 
   void run() {
     const SharedScene start = shared_scene(number_, window_length * static_cast<double>(window_count_));
@@ -76,6 +77,7 @@ class Play {
     LossyMail mail(office_, number, [&](std::uint64_t word) { before_word(number, word); });
     SessionSettings settings{.number = number, .peer_count = peer_count_, .halo = 0.2, .window_count = window_count_, .end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); }};
     settings.keys = scene_.keys;
+    settings.balance_windows = balance_windows;
     if (is_live)
       for (std::uint32_t body = 0; body < start.body_count(); ++body)
         if (start.kind({body}) == physics::BodyKind::bat) settings.seats.push_back({.bat = body, .peer = body % peer_count_, .period = 0.02, .phase = 0.001 * body, .puck_count = 2});
@@ -141,13 +143,14 @@ TEST(Session, HasTheStatesOfOneEngineWithoutALoss) {
 }
 
 TEST(Session, GoesOnWhereverInTheProtocolAPeerIsKilled) {
-  std::uint64_t recoveries = 0;
+  std::uint64_t recoveries = 0, shifts = 0;
   for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const PeerNumber peer_count = 3 + below(random, 4), victim = below(random, peer_count);
     const std::uint64_t last_word = 1 + below(random, 20 * 8 * (peer_count - 1));
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
+    play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_word = [&](PeerNumber peer, std::uint64_t word) {
       if (peer != victim || word != last_word) return;
       play.office().kill(victim);
@@ -157,9 +160,10 @@ TEST(Session, GoesOnWhereverInTheProtocolAPeerIsKilled) {
     EXPECT_EQ(play.count(Fate::killed) + play.count(Fate::done), peer_count);
     EXPECT_GE(play.count(Fate::done), peer_count - 1);
     expect_whole(play);
-    for (const SessionCounters& counters : play.counters) recoveries += counters.recoveries;
+    for (const SessionCounters& counters : play.counters) recoveries += counters.recoveries, shifts += counters.shifts;
   }
-  std::cout << recoveries << " recoveries\n";
+  std::cout << recoveries << " recoveries, " << shifts << " shifts of zones\n";
+  EXPECT_GT(shifts, 50u);
   EXPECT_GT(recoveries, 100u);
 }
 
@@ -173,6 +177,7 @@ TEST(Session, GoesOnWhenAPeerIsKilledWhileOthersRecoverOrSaysSo) {
     std::atomic<bool> is_first_dead = false;
     std::atomic<std::uint64_t> words_since = 0;
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
+    play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_word = [&](PeerNumber peer, std::uint64_t word) {
       const bool dies_first = peer == first && word == last_word, dies_second = peer == second && is_first_dead && words_since++ == further;
       if (!dies_first && !dies_second) return;
@@ -201,6 +206,7 @@ TEST(Session, IsGoneOnWithByOneSideOfAPartitionAtMost) {
     const std::uint64_t side = 1 + below(random, (1u << peer_count) - 2), last_word = 1 + below(random, 20 * 6 * (peer_count - 1));
     const auto is_one = [&](PeerNumber peer) { return (side >> peer & 1) != 0; };
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
+    play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_word = [&](PeerNumber peer, std::uint64_t word) {
       if (peer == 0 && word == last_word) play.office().cut_off(is_one);
     };
@@ -242,6 +248,7 @@ TEST(Session, IsLeftInGoodOrder) {
     for (PeerNumber peer = 0; peer < peer_count; ++peer) windows.push_back(below(random, 40));
     windows[below(random, peer_count)] = 99;
     Play play(below(random, 10) + 10 * seed, peer_count, 20);
+    play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_window = [&](Session& session, PeerNumber peer) {
       if (session.window() >= windows[peer]) session.leave();
     };

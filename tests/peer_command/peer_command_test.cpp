@@ -49,7 +49,7 @@ TEST_F(PeerCommand, PlaysRecordedKeysToTheHashOfTheirLog) {
 TEST_F(PeerCommand, RecordsWhatBotsOfAllPeersPlayedLiveAsAKeyLogOfTheSameGame) {
   const std::string file = (folder_ / "live.keys").string();
   for (const char* pace : {"free", "realtime"}) {
-    Process& first = found(3, "2", {"--bots", "3", "--players", "chaser,random", "--record", file, "--pace", pace});
+    Process& first = found(3, "2", {"--bots", "3", "--players", "chaser,random", "--record", file, "--pace", pace, "--balance", "5"});
     const std::vector<const Process*> all{&first, &join(first, {"--bots", "4", "--players", "waypoint"}), &join(first)};
     for (const Process* peer : all) ASSERT_TRUE(ends(*peer));
     const KeyLog log = read_key_log(std::filesystem::path(file));

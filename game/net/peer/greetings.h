@@ -43,6 +43,7 @@ struct Luggage {
 struct Terms {
   std::uint32_t peer_count = 2;
   double until = 0.0, window = 0.0;  ///< s
+  std::uint32_t balance_windows = 0; ///< after so many windows zones shift toward equal load; 0: they stay
   bool is_mirrored = true;           ///< whether each peer's part is kept by another, too
   bool fit() const { return peer_count >= 2 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
 };
@@ -122,7 +123,7 @@ bool exchange(Stream& stream, Hello& hello) {
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
   Terms& terms = welcome.terms;
-  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, welcome.first_bat) && stream.truth(terms.is_mirrored);
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.first_bat) && stream.truth(terms.is_mirrored);
   if (!is_headed || !stream.size(welcome.others)) return false;
   for (Guest& guest : welcome.others)
     if (!exchange(stream, guest)) return false;

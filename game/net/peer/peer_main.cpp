@@ -36,7 +36,7 @@ struct Options {
   std::uint32_t bats = 0, bots = 0;
   bool says_peers = false;  ///< --peers was given
   double patience_s = 30.0;
-  game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02};
+  game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02, .balance_windows = 25};
 };
 
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
@@ -111,6 +111,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"cpu_s", processor_s()},
           {"lost", part.lost},
           {"recoveries", part.counters.recoveries},
+          {"shifts", part.counters.shifts},
           {"mirror_bytes", part.counters.mirror_bytes},
           {"recovery_bytes", part.counters.recovery_bytes}};
   if (!part.has_left) report["hash"] = hash;
@@ -277,6 +278,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--peers", options.terms.peer_count, "how many there will be; the first peer's to say")->check(CLI::Range(2u, game::peers_max))->excludes(join)->capture_default_str();
   app.add_option("--until", options.terms.until, "simulated time at which to stop [s]; the first peer's to say")->check(game::number_from(1e-6, game::seconds_max))->excludes(join)->capture_default_str();
   app.add_option("--window", options.terms.window, "simulated time from one agreement to the next [s]; the first peer's to say")->check(game::number_from(1e-4, 10.0))->excludes(join)->capture_default_str();
+  app.add_option("--balance", options.terms.balance_windows, "after so many windows zones shift toward equal numbers of events, if these are uneven; 0: they stay; the first peer's to say")
+      ->check(CLI::Range(0u, 1'000'000u))
+      ->excludes(join)
+      ->capture_default_str();
   app.add_flag("!--unmirrored", options.terms.is_mirrored, "no peer keeps another's part: who is lost or interrupted ends all; the first peer's to say")->excludes(join);
   app.add_option("--transport", options.transport, "what carries the bytes: tcp; shm between processes of this machine, where a port is a name; or mpi between the ranks of an mpirun, which all are peers; the same for all")->check(CLI::IsMember({"tcp", "shm", "mpi"}))->capture_default_str();
   app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();

@@ -118,6 +118,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   const auto count = settings.window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window)));
   // The last window ends at `until`, the one that is prepared then, and never played, one window later.
   settings.end_of = [terms, count](std::uint64_t k) { return k == count ? terms.until : k > count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
+  settings.balance_windows = terms.balance_windows;
   settings.keys = thrusts();
   settings.seats = seats(guests);
   peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
