@@ -68,6 +68,7 @@ class Session {
   /// An own player's key, as Peer::press.
   void press(const Glimpse& seen, const Press& press);
   Peer& peer() { return *peer_; }
+  const Peer& peer() const { return *peer_; }
   /// When all is over: everybody's bodies and, as keys, everybody's log, by peer.
   std::vector<Arrivals> end();
 

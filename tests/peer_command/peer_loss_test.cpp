@@ -92,6 +92,7 @@ TEST_F(PeerLoss, IsNotWhenOneIsInterruptedForItHandsOverWhatItOwns) {
     ASSERT_TRUE(ends(*peer));
     EXPECT_EQ(hash_of(*peer), truth(2.0));
     EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
+    EXPECT_EQ(peer->last_words(), "rink-peer: peer 0 has left in good order");
   }
 }
 

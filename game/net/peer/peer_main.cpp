@@ -152,7 +152,7 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     const game::PlayedPart part = shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
     const double playing_s = now_s() - start_s;
     meeting.leave({});
-    if (part.has_left) spdlog::warn("interrupted at {} s: all that this peer had is with others", part.time);
+    if (part.has_left) spdlog::warn("interrupted at {} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
     else write_record(options, shared, part, meeting.terms());
     std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
     return part.has_left ? game::ExitStatus::interrupted : game::ExitStatus::ok;

@@ -27,6 +27,29 @@ const Scene& shareable(const Scene& scene) {
 
 BatController controller_of(const Scene& scene, std::uint32_t player) { return BatController(scene.bodies.bats[player].thrust); }
 
+/// Tells the user who is gone.
+class Membership {
+ public:
+  Membership(const peer::Session& session, const Manner& manner) : session_(session), manner_(manner), members_(session.members()) {}
+
+  void tell() {
+    if (!manner_.tell || session_.has_left() || (session_.members() == members_ && session_.lost().size() == lost_)) return;
+    for (const peer::PeerNumber peer : members_)
+      if (!is_in(session_.members(), peer) && !is_in(session_.lost(), peer)) manner_.tell("peer " + std::to_string(peer) + " has left in good order");
+    members_ = session_.members();
+    const std::string who = members_.size() == 1 ? "this peer goes on alone" : std::to_string(members_.size()) + " peers go on";
+    if (std::exchange(lost_, session_.lost().size()) != session_.lost().size()) manner_.tell(session_.last_loss() + ": " + who + " from " + std::to_string(session_.peer().now()) + " s");
+  }
+
+ private:
+  static bool is_in(const std::vector<peer::PeerNumber>& sorted, peer::PeerNumber peer) { return std::binary_search(sorted.begin(), sorted.end(), peer); }
+
+  const peer::Session& session_;
+  const Manner& manner_;
+  std::vector<peer::PeerNumber> members_;
+  std::size_t lost_ = 0;
+};
+
 }  // namespace
 
 SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(shareable(scene)), keys_(merged(scene.keys, recorded)), start_(scene) {
@@ -123,24 +146,19 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.seats = seats(guests);
   peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
   Crowd crowd(scene_, start_, manner.players, scene_.seed, guests[number].first_bat, guests[number].bat_count, terms.until);
-  std::size_t told = 0;
-  const auto tell_losses = [&] {
-    if (told == session.lost().size()) return;
-    told = session.lost().size();
-    const std::size_t left = session.members().size();
-    if (manner.tell) manner.tell(session.last_loss() + (left == 1 ? ": this peer goes on alone" : ": " + std::to_string(left) + " peers go on") + " from " + std::to_string(session.peer().now()) + " s");
-  };
+  Membership membership(session, manner);
   while (!session.is_over()) {
     if (manner.before_window) manner.before_window(session.peer().now());
     if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
     session.advance();
-    tell_losses();
+    membership.tell();
     crowd.act(session);
   }
   PlayedPart part;
   part.has_left = session.has_left();
+  part.was_last = part.has_left && session.members().size() == 1;
   if (!session.has_left()) end(terms, session, part);
-  tell_losses();
+  membership.tell();
   part.counters = session.counters();
   part.lost = session.lost();
   part.time = session.peer().now();

@@ -18,6 +18,7 @@ namespace rink::game {
 struct PlayedPart {
   peer::SessionCounters counters;
   bool has_left = false;                ///< before the end, in good order: then there is no hash
+  bool was_last = false;                ///< and nobody else was left
   std::vector<peer::PeerNumber> lost;   ///< who was
   double time = 0.0;                    ///< how far it came [s]
   std::uint64_t owned = 0, ghosts = 0;  ///< at the end
