@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <iterator>
-#include <tuple>
 
 #include "game/physics/engine.h"
 
@@ -106,19 +104,23 @@ void Portion::drop(std::uint32_t body) {
 
 const std::vector<Hold>& Portion::holds() const { return engine().holds_; }
 
-/// Who gains a contact, loses one, or has one that ends at another time is predicted anew, though its own state be the same.
 void Portion::set_holds(std::vector<Hold> holds) {
-  Engine& e = engine();
-  const auto words = [](const Hold& hold) { return std::tuple(hold.low, hold.high, hold.axis, hold.pull_time, hold.force, hold.turn_time); };
-  const auto is_before = [&](const Hold& a, const Hold& b) { return words(a) < words(b); };
-  std::vector<Hold> before = e.holds_, changed;
-  std::sort(before.begin(), before.end(), is_before);
-  std::sort(holds.begin(), holds.end(), is_before);
-  std::set_symmetric_difference(before.begin(), before.end(), holds.begin(), holds.end(), std::back_inserter(changed), is_before);
-  for (const Hold& hold : changed)
-    for (const Partner partner : {hold.low, hold.high})
-      if (!e.is_fixed(partner) && !e.is_gone(partner)) e.require_prediction(partner);
   std::stable_sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.age < b.age; });
+  Engine& e = engine();
+  // When a contact ends follows from both sides' states and from itself, and no version tells of that: whoever has a new one, or one with a body that was put, is predicted anew.
+  const auto is_pending = [&](Partner p) { return p < body_count() && (e.bodies_[p].flags & Engine::pending) != 0; };
+  const auto are_same = [](const Hold& a, const Hold& b) {
+    return a.low == b.low && a.high == b.high && a.axis == b.axis && a.pull_time == b.pull_time && a.turn_time == b.turn_time;
+  };
+  const auto is_in = [&](const std::vector<Hold>& list, const Hold& hold) { return std::any_of(list.begin(), list.end(), [&](const Hold& other) { return are_same(hold, other); }); };
+  std::vector<Partner> concerned;
+  const auto concern = [&](const Hold& hold) { concerned.insert(concerned.end(), {hold.low, hold.high}); };
+  for (const Hold& hold : holds)
+    if (is_pending(hold.low) || is_pending(hold.high) || !is_in(e.holds_, hold)) concern(hold);
+  for (const Hold& hold : e.holds_)
+    if (!is_in(holds, hold)) concern(hold);
+  for (const Partner p : concerned)
+    if (p < body_count() && is_there(p)) e.require_prediction(p);
   e.holds_ = std::move(holds);
 }
 
