@@ -105,6 +105,8 @@ class Peer {
   const std::vector<std::uint32_t>& owned() const { return owned_; }
   const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
   BodyState state(std::uint32_t body) const { return portion_.state(body); }
+  /// All in rest contact or in one jam with it, directly or through others, itself first.
+  std::vector<std::uint32_t> group_of(std::uint32_t body) const { return portion_.group_of(body); }
   const physics::World& world() const { return portion_.world(); }
   double halo() const { return halos_[number_]; }
   const PeerCounters& counters() const { return counters_; }

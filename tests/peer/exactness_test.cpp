@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "game/peer/assembly.h"
+#include "tests/peer/scene_classes.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -14,7 +15,7 @@ struct Played {
   PeerCounters counters;
   std::uint64_t held_ghosts = 0;           ///< ghosts in rest contact or in a jam, summed over peers and windows
   physics::Counters truth;
-  std::uint64_t at_once_scenes = 0;        ///< in which 64 events or more came at one instant
+  SceneClasses classes;
 };
 
 /// What `peer` has is its own, or in its halo, or in a group with what is.
@@ -34,7 +35,7 @@ void expect_only_halo(const Peer& peer, const Division& division, const std::str
 Played expect_same_history(std::uint64_t number, int window_max) {
   Random random(7 * number + 3);
   const double length = std::pow(10.0, uniform(random, -3.0, window_max < 1000 ? -1.0 : -2.0));
-  const int window_count = window_max - static_cast<int>(below(random, static_cast<std::uint32_t>(window_max) / 2));
+  const int window_count = window_max - (window_max == 3000 ? 0 : static_cast<int>(below(random, static_cast<std::uint32_t>(window_max) / 2)));
   SharedScene scene = shared_scene(number, length * window_count);
   const PeerNumber peer_count = 2 + below(random, 15);
   const Division division = random_division(scene.world.spec().field, random, peer_count);
@@ -45,6 +46,9 @@ Played expect_same_history(std::uint64_t number, int window_max) {
   const std::uint32_t body_count = whole.body_count();
   std::size_t next_key = 0;
   Played played;
+  played.classes = classes_of(whole, division, scene.keys);
+  played.classes.peer_counts = {peer_count}, played.classes.long_runs = window_count == 3000;
+  std::vector<PeerNumber> owners(body_count);
   for (int window = 1; window <= window_count; ++window) {
     const double until = length * window;
     for (; next_key < scene.keys.size() && scene.keys[next_key].time <= until; ++next_key) {
@@ -57,7 +61,12 @@ Played expect_same_history(std::uint64_t number, int window_max) {
     EXPECT_EQ(assembly.misowned(), 0u) << where;
     for (const Peer& peer : assembly.peers()) {
       for (const std::uint32_t ghost : peer.ghosts()) played.held_ghosts += peer.world().is_held({ghost});
-      if (window % 8 == 1) expect_only_halo(peer, division, where);
+      if (window % 8 == 1) expect_only_halo(peer, division, where), note_groups(played.classes, peer, division);
+      for (const std::uint32_t body : peer.owned()) {
+        const bool is_bullet = owners[body] != peer.number() && window > 1 && peer.world().velocity({body}).norm() >= 50.0;
+        played.classes.bullet_crossings += is_bullet;
+        owners[body] = peer.number();
+      }
     }
     for (std::uint32_t body = 0; body < body_count; ++body) {
       if (bytes_of(assembly.state(body)) == bytes_of(physics::Portion::state_in(whole, body))) continue;
@@ -67,28 +76,31 @@ Played expect_same_history(std::uint64_t number, int window_max) {
     }
   }
   played.truth = whole.counters();
-  played.at_once_scenes = played.truth.events_at_once_max >= 64;
+  played.classes.ties = played.truth.events_at_once_max >= 64;
   for (const Peer& peer : assembly.peers()) played.counters += peer.counters();
   return played;
 }
 
-/// Every twentieth scene is played over as many as `long_max` windows.
-void expect_same_histories(std::uint64_t first, std::uint64_t last, int window_max, int long_max) {
+/// Every twentieth scene is played over as many as `long_max` windows. Answers what occurred in them.
+Played expect_same_histories(std::uint64_t first, std::uint64_t last, int window_max, int long_max) {
   Played all;
   for (std::uint64_t number = first; number < last; ++number) {
     const Played played = expect_same_history(number, number % 20 == 7 ? long_max : window_max);
     all.counters += played.counters;
-    all.held_ghosts += played.held_ghosts, all.at_once_scenes += played.at_once_scenes;
+    all.held_ghosts += played.held_ghosts, all.classes += played.classes;
     for (const auto counter : physics::counter_of_kind) all.truth.*counter += played.truth.*counter;
     all.truth.joint_impacts += played.truth.joint_impacts;
   }
   const PeerCounters& c = all.counters;
   std::cout << c.windows << " windows of peers, " << c.repeats << " repeated; " << c.hand_overs << " bodies handed over; " << c.own_events << " own events, " << c.ghost_events
             << " of ghosts alone; held ghosts in windows: " << all.held_ghosts << "; in truth " << all.truth.events() << " events, " << all.truth.joint_impacts << " joint impacts, "
-            << all.truth.rests << " rests, " << all.truth.hops << " hops, " << all.truth.freezes << " freezes, " << all.truth.goals << " goals; " << all.at_once_scenes
-            << " scenes with 64 events at one instant\n";
-  for (const std::uint64_t count : {c.repeats, c.hand_overs, c.ghost_events, all.held_ghosts, all.truth.joint_impacts, all.truth.rests, all.truth.hops, all.at_once_scenes})
-    EXPECT_GT(count, 0u);
+            << all.truth.rests << " rests, " << all.truth.hops << " hops, " << all.truth.freezes << " freezes, " << all.truth.goals << " goals\n"
+            << all.classes << '\n';
+  for (const std::uint64_t count : {c.repeats, c.hand_overs, c.ghost_events, all.held_ghosts, all.truth.joint_impacts, all.truth.rests, all.truth.hops}) EXPECT_GT(count, 0u);
+  const SceneClasses& k = all.classes;
+  for (const std::uint64_t count : {k.dense, k.rows_across_borders, k.ties, k.bullets, k.bullet_crossings, k.unequal, k.drag, k.friction, k.rough, k.keys_at_once, k.groups_across_borders})
+    EXPECT_GT(count, 0u) << k;
+  return all;
 }
 
 TEST(SharedSimulation, EqualsOneEngineBitForBitOver50Scenes) { expect_same_histories(0, 50, 60, 200); }
@@ -102,7 +114,16 @@ TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
   }
 }
 
-TEST(SharedSimulationLong, EqualsOneEngineBitForBitOver1000Scenes) { expect_same_histories(1000, 2000, 150, 3000); }
+/// A thousand scenes in twenty parts, which can be run one by one: --gtest_filter='*SharedSimulationLong*/7'.
+class SharedSimulationLong : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SharedSimulationLong, EqualsOneEngineBitForBitOver50OfThousandScenes) {
+  const std::uint64_t first = 1000 + 50 * GetParam();
+  const Played played = expect_same_histories(first, first + 50, 150, 3000);
+  EXPECT_GE(played.classes.long_runs, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, SharedSimulationLong, testing::Range<std::uint64_t>(0, 20));
 
 }  // namespace
 }  // namespace rink::peer::test

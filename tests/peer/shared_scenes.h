@@ -116,11 +116,24 @@ inline void add_bullets(physics::World& world, Random& random, int count) {
   }
 }
 
+/// Bats that fill a third of the field, so that keys press them to each other in groups, wherever borders are.
+inline std::vector<physics::BodyId> add_throng(physics::World& world, Random& random) {
+  std::vector<physics::BodyId> bats;
+  for (int tries = 0; bats.size() < 36 && tries < 400; ++tries) {
+    const double x = uniform(random, 0.2, 3.8), y = uniform(random, 0.2, 1.8), along = uniform(random, 0.06, 0.2), across = uniform(random, 0.06, 0.2);
+    physics::BatSpec bat{.position = {x, y}, .half_extent = {along, across}, .mass = 3.0};
+    if (world.is_free(bat.position, bat.half_extent)) bats.push_back(world.add(bat));
+  }
+  return bats;
+}
+
 inline void press_keys(SharedScene& scene, Random& random, const std::vector<physics::BodyId>& bats, double interval, double until) {
   for (double time = 0.0; !bats.empty() && time < until;) {
-    const std::uint32_t bat = bats[random() % bats.size()].index;
-    const double x = static_cast<double>(below(random, 3)) - 1.0, y = static_cast<double>(below(random, 3)) - 1.0;
-    scene.keys.push_back({time, bat, Vector2(x, y) * 6.0});
+    for (std::uint32_t at_once = 1 + below(random, 2) * below(random, 4); at_once > 0; --at_once) {
+      const std::uint32_t bat = bats[random() % bats.size()].index;
+      const double x = static_cast<double>(below(random, 3)) - 1.0, y = static_cast<double>(below(random, 3)) - 1.0;
+      scene.keys.push_back({time, bat, Vector2(x, y) * 6.0});
+    }
     const double wait = uniform(random, 0.0, 2.0 * interval);
     time += wait;
   }
@@ -140,7 +153,7 @@ inline SharedScene shared_scene(std::uint64_t number, double until) {
   physics::World& world = scene.world;
   std::vector<physics::BodyId> bats;
   switch (kind) {
-    case 0: add_gas(world, random, uniform(random, 0.02, 0.6), 2.0, 1.0); break;
+    case 0: add_gas(world, random, number % 30 == 0 ? 0.63 : uniform(random, 0.02, 0.6), 2.0, 1.0); break;  // 0.63 of the lattice is 0.6 of the field
     case 1: add_cradles(world, random, 4); break;
     case 2: add_rack(world, random, 5), add_rack(world, random, 4); break;
     case 3: add_grid_of_ties(world, random); break;
@@ -149,9 +162,9 @@ inline SharedScene shared_scene(std::uint64_t number, double until) {
     default:
       if (kind == 6) add_rack(world, random, 4);
       physics::test::scatter_posts(world, random, 2);
-      bats = physics::test::scatter_bats(world, random, 6);
+      bats = kind == 7 ? add_throng(world, random) : physics::test::scatter_bats(world, random, 6);
       physics::test::scatter_pucks(world, random, 40, 0.05, 2.0);
-      press_keys(scene, random, bats, kind == 7 ? 0.5 : 0.05, until);
+      press_keys(scene, random, bats, kind == 7 ? 0.02 : 0.05, until);
   }
   return scene;
 }
