@@ -25,6 +25,7 @@ bool is_before(const Key& a, const Key& b) { return std::tuple(a.time, a.bat) < 
 
 PeerCounters& PeerCounters::operator+=(const PeerCounters& other) {
   windows += other.windows, repeats += other.repeats, own_events += other.own_events, ghost_events += other.ghost_events, hand_overs += other.hand_overs;
+  held_max = std::max(held_max, other.held_max);
   ghost_windows += other.ghost_windows, border_windows += other.border_windows;
   arrival_bytes += other.arrival_bytes, claim_bytes += other.claim_bytes, verdict_bytes += other.verdict_bytes;
   return *this;
@@ -320,6 +321,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
   else
     for (const std::uint32_t body : candidates)
       if (roles_[body] == own && !portion_.world().is_held({body})) homes_[body] = home_of(portion_.world().position({body}), 0);
+  counters_.held_max = std::max<std::uint64_t>(counters_.held_max, owned_.size() + ghosts_.size());
   counters_.ghost_windows += ghosts_.size();
   for (const std::vector<std::uint32_t>& known : known_) counters_.border_windows += known.size();
 }

@@ -19,6 +19,7 @@ struct PeerCounters {
   std::uint64_t windows = 0, repeats = 0;          ///< final ones; and how often one was played again
   std::uint64_t own_events = 0, ghost_events = 0;  ///< in final windows: with a body of its own among those concerned, and without
   std::uint64_t hand_overs = 0;                    ///< bodies that left for another owner
+  std::uint64_t held_max = 0;                      ///< the most bodies that it had at a window's start, its own and ghosts; of peers taken together, the busiest one's
   std::uint64_t ghost_windows = 0;                 ///< ghosts held, summed over the windows
   std::uint64_t border_windows = 0;                ///< own bodies that another peer has as ghosts, likewise, each counted once per such peer
   std::uint64_t arrival_bytes = 0, claim_bytes = 0, verdict_bytes = 0;  ///< sent

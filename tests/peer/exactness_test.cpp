@@ -96,14 +96,17 @@ Played expect_same_histories(std::uint64_t first, std::uint64_t last, int window
             << " of ghosts alone; held ghosts in windows: " << all.held_ghosts << "; in truth " << all.truth.events() << " events, " << all.truth.joint_impacts << " joint impacts, "
             << all.truth.rests << " rests, " << all.truth.hops << " hops, " << all.truth.freezes << " freezes, " << all.truth.goals << " goals\n"
             << all.classes << '\n';
+  return all;
+}
+
+TEST(SharedSimulation, EqualsOneEngineBitForBitOver50Scenes) {
+  const Played all = expect_same_histories(0, 50, 60, 200);
+  const PeerCounters& c = all.counters;
   for (const std::uint64_t count : {c.repeats, c.hand_overs, c.ghost_events, all.held_ghosts, all.truth.joint_impacts, all.truth.rests, all.truth.hops}) EXPECT_GT(count, 0u);
   const SceneClasses& k = all.classes;
   for (const std::uint64_t count : {k.dense, k.rows_across_borders, k.ties, k.bullets, k.bullet_crossings, k.unequal, k.drag, k.friction, k.rough, k.keys_at_once, k.groups_across_borders})
     EXPECT_GT(count, 0u) << k;
-  return all;
 }
-
-TEST(SharedSimulation, EqualsOneEngineBitForBitOver50Scenes) { expect_same_histories(0, 50, 60, 200); }
 
 /// Joint impacts that reach from one row into the next: what they only looked at, or moved by a rounding, counts as well.
 TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
@@ -114,16 +117,15 @@ TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
   }
 }
 
-/// A thousand scenes in twenty parts, which can be run one by one: --gtest_filter='*SharedSimulationLong*/7'.
+/// A thousand scenes in forty parts, which can be run one by one: --gtest_filter='*SharedSimulationLong*/7'. Classes that are rare occur in all parts together.
 class SharedSimulationLong : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(SharedSimulationLong, EqualsOneEngineBitForBitOver50OfThousandScenes) {
-  const std::uint64_t first = 1000 + 50 * GetParam();
-  const Played played = expect_same_histories(first, first + 50, 150, 3000);
-  EXPECT_GE(played.classes.long_runs, 2u);
+TEST_P(SharedSimulationLong, EqualsOneEngineBitForBitOver25OfThousandScenes) {
+  const std::uint64_t first = 1000 + 25 * GetParam();
+  EXPECT_GT(expect_same_histories(first, first + 25, 150, 3000).classes.long_runs, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Part, SharedSimulationLong, testing::Range<std::uint64_t>(0, 20));
+INSTANTIATE_TEST_SUITE_P(Part, SharedSimulationLong, testing::Range<std::uint64_t>(0, 40));
 
 }  // namespace
 }  // namespace rink::peer::test

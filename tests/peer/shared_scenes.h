@@ -152,6 +152,7 @@ inline SharedScene shared_scene(std::uint64_t number, double until) {
   SharedScene scene{physics::World(spec), {}};
   physics::World& world = scene.world;
   std::vector<physics::BodyId> bats;
+  const bool is_throng = number % 20 == 17;
   switch (kind) {
     case 0: add_gas(world, random, number % 30 == 0 ? 0.63 : uniform(random, 0.02, 0.6), 2.0, 1.0); break;  // 0.63 of the lattice is 0.6 of the field
     case 1: add_cradles(world, random, 4); break;
@@ -162,9 +163,9 @@ inline SharedScene shared_scene(std::uint64_t number, double until) {
     default:
       if (kind == 6) add_rack(world, random, 4);
       physics::test::scatter_posts(world, random, 2);
-      bats = kind == 7 ? add_throng(world, random) : physics::test::scatter_bats(world, random, 6);
+      bats = is_throng ? add_throng(world, random) : physics::test::scatter_bats(world, random, 6);
       physics::test::scatter_pucks(world, random, 40, 0.05, 2.0);
-      press_keys(scene, random, bats, kind == 7 ? 0.02 : 0.05, until);
+      press_keys(scene, random, bats, is_throng ? 0.02 : kind == 7 ? 0.5 : 0.05, until);
   }
   return scene;
 }

@@ -95,6 +95,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"owned", part.owned},
           {"ghosts", part.ghosts},
           {"mean_ghosts", static_cast<double>(counters.ghost_windows) / static_cast<double>(counters.windows + 1)},
+          {"held_max", counters.held_max},
           {"halo", part.halo},
           {"own_events", counters.own_events},
           {"ghost_events", counters.ghost_events},
