@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <type_traits>
 
 #include "scenes.h"
@@ -97,6 +98,44 @@ TEST(Portion, KnowsHowABodyWasBeforeTheWindow) {
     EXPECT_EQ(before.impacts, then.impacts);
     EXPECT_EQ(before.acceleration, then.acceleration);
   }
+}
+
+TEST(Portion, PredictsWhenARestContactEndsAnewIfTheOtherSideIsPut) {
+  // A bat pushes another one and slides along its face, until that ends.
+  World world(rink_of(4.0, 2.0, 0.0, 0.0, 1.0));
+  const BodyId pushing = world.add(BatSpec{.position = {1.0, 1.0}, .half_extent = {0.125, 0.125}}), pushed = world.add(BatSpec{.position = {1.25, 1.0}, .half_extent = {0.125, 0.125}});
+  world.set_thrust(pushing, {6.0, 1.0});
+  world.advance(0.25);
+  ASSERT_TRUE(world.is_held(pushed));
+  const auto portion_of = [&] {
+    auto portion = std::make_unique<Portion>(world.spec(), world.body_count());
+    portion->advance(world.now());
+    for (const BodyId body : {pushing, pushed}) portion->put(body.index, Portion::state_in(world, body.index));
+    portion->set_holds({{.low = pushing.index, .high = pushed.index, .axis = 0, .pull_time = 1e300, .force = 0.0, .turn_time = 1e300, .age = {}}});
+    portion->begin_window();
+    return portion;
+  };
+  const auto corrected = portion_of(), fresh = portion_of();
+  corrected->advance(0.26);  // now it has been predicted
+  fresh->advance(0.26);
+  for (const double speed : {0.75, -0.25}) {
+    BodyState other = corrected->state(pushing.index);
+    other.flight.vy = speed;
+    corrected->put(pushing.index, other);
+    corrected->set_holds(corrected->holds());
+    fresh->put(pushing.index, other);
+    fresh->put(pushed.index, fresh->state(pushed.index));
+    fresh->set_holds(fresh->holds());
+    const double until = corrected->world().now() + 0.02;
+    corrected->advance(until);
+    fresh->advance(until);
+  }
+  EXPECT_FALSE(fresh->holds().empty());
+  const double until = corrected->world().now() + 1.2;
+  corrected->advance(until);
+  fresh->advance(until);
+  EXPECT_TRUE(fresh->holds().empty());
+  EXPECT_EQ(corrected->world().hash(), fresh->world().hash());
 }
 
 }  // namespace
