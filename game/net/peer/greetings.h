@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 2;
+inline constexpr std::uint32_t peer_protocol_version = 3;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
