@@ -22,8 +22,9 @@ void Handshake::say(Message message) {
   const auto length = static_cast<std::uint32_t>(measure(message));
   if (role_ == Role::rti && said_ + frame_header_size + length > heard_) return;
   said_ += frame_header_size + length;
-  const auto* header = reinterpret_cast<const std::byte*>(&length);
-  outgoing_.insert(outgoing_.end(), header, header + frame_header_size);
+  const std::size_t header = outgoing_.size();
+  outgoing_.resize(header + frame_header_size);
+  std::memcpy(outgoing_.data() + header, &length, frame_header_size);
   write(outgoing_, message);
 }
 
