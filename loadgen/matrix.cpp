@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "im/filter.h"
 #include "loadgen/experiment.h"
 #include "loadgen/parameter.h"
 

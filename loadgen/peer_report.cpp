@@ -26,7 +26,7 @@ TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
   return a;
 }
 
-Json peers_report(const Experiment& experiment, const Cell& cell, const PeerTotals& totals) {
+Json peers_report(const Cell& cell, const PeerTotals& totals) {
   using game::Traffic;
   const TrafficTotals& measured = totals.measured;
   const auto of = [&](Traffic about) { return measured.by_subject[static_cast<std::size_t>(about)]; };

@@ -35,7 +35,7 @@ struct PeerTotals {
 };
 
 /// As a server's and as its bots': what is sent counts as what goes down, and what is received as what goes up, of which there is as much.
-nlohmann::ordered_json peers_report(const Experiment& experiment, const Cell& cell, const PeerTotals& totals);
+nlohmann::ordered_json peers_report(const Cell& cell, const PeerTotals& totals);
 nlohmann::ordered_json players_report(const Cell& cell, const PeerTotals& totals, const Measurements& measured);
 
 }  // namespace rink::loadgen

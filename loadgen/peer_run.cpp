@@ -344,7 +344,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
     throw Failure{error.what()};
   }
   const PeerTotals totals = run.totals();
-  const Json peers = peers_report(experiment, cell, totals), bots = players_report(cell, totals, run.measurements());
+  const Json peers = peers_report(cell, totals), bots = players_report(cell, totals, run.measurements());
   const std::string name = name_of(cell);
   const std::string server_evidence = settings.directory / (name + ".server.jsonl"), bots_evidence = settings.directory / (name + ".bots.jsonl");
   if (settings.wants_truth) run.write_evidence(server_evidence, bots_evidence);
