@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "im/filter.h"
 #include "loadgen/experiment.h"
 #include "loadgen/parameter.h"
+#include "rti/federation_execution.h"
 
 namespace rink::loadgen {
 namespace {
