@@ -47,21 +47,28 @@ std::string times_less(const std::optional<Ratio>& ratio) {
   return shown(less.value) + " [" + shown(less.interval->low) + ", " + shown(less.interval->high) + "]" + (less.difference() == Difference::insignificant ? " ~" : "");
 }
 
-using Columns = std::vector<const ParameterKind*>;
+/// The parameters in which rows differ, and how long their schemes' names are.
+struct Columns {
+  std::vector<const ParameterKind*> parameters;
+  std::size_t scheme_width = 7;
+  auto begin() const { return parameters.begin(); }
+  auto end() const { return parameters.end(); }
+};
 
-/// Those in which rows differ.
-Columns differing_parameters(const std::vector<SummaryRow>& rows) {
+Columns columns_of(const std::vector<SummaryRow>& rows) {
   Columns columns;
+  for (const SummaryRow& row : rows) columns.scheme_width = std::max(columns.scheme_width, row.scheme.size());
   for (const ParameterKind& kind : parameter_kinds())
-    if (std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); })) columns.push_back(&kind);
+    if (std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); })) columns.parameters.push_back(&kind);
   return columns;
 }
 
 std::string heading(const Columns& columns) {
   std::string own;
   for (const ParameterKind* kind : columns) own += formatted(" %9s", kind->column);
-  return std::string(31 + own.size(), ' ') + "  down     times less    recall  displayed    age, ms      on     us per tick            \n" +
-         "clients scheme       policy   " + own + "   kB/s     [interval]    deliv.  error, mm   p50    p99   time  phys. filter   send   n\n";
+  const std::string scheme = "scheme" + std::string(columns.scheme_width - 6, ' ');
+  return std::string(18 + columns.scheme_width + own.size(), ' ') + "  down     times less    recall  displayed    age, ms      on     us per tick            \n" +
+         "clients " + scheme + " policy   " + own + "   kB/s     [interval]    deliv.  error, mm   p50    p99   time  phys. filter   send   n\n";
 }
 
 /// The row's values; `-` where its scheme lacks the parameter.
@@ -82,7 +89,7 @@ std::string line_of(const SummaryRow& row, const Baseline& baseline, const Colum
   const std::string runs = row.invalid_runs == 0 ? std::to_string(row.valid_runs)
                                                  : std::to_string(row.valid_runs) + "/" + std::to_string(row.valid_runs + row.invalid_runs);
   const bool is_baseline = row.scheme == baseline.scheme && row.policy == baseline.policy;
-  return formatted("%7u %-12.12s %-9.9s", row.clients, row.scheme.c_str(), row.policy.c_str()) + values_of(row, columns) +
+  return formatted("%7u %-*s %-9.9s", row.clients, static_cast<int>(columns.scheme_width), row.scheme.c_str(), row.policy.c_str()) + values_of(row, columns) +
          formatted(" %6s %18s %7s %9s %6s %6s %6s %6s %6s %6s %3s", mean(payload, 1e-3).c_str(),
                    is_baseline ? "baseline" : times_less(row.ratio(payload)).c_str(), fraction_text(row.of("delivered_recall").mean).c_str(), mean(error).c_str(),
                    mean("update_age_ms_p50").c_str(), mean("update_age_ms_p99").c_str(), percent(row.of("ticks_on_time_fraction").mean).c_str(),
@@ -125,7 +132,7 @@ std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& base
     const auto none = row_of(baseline_of(row, baseline.scheme, baseline.policy));
     if (filter == rows.end() || policy == rows.end()) continue;
     const std::string variant = variant_of(row);
-    text += formatted("%u clients, %.20s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + (row.mode == rows.front().mode ? "" : ", " + row.mode) + ": " +
+    text += formatted("%u clients, %s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + (row.mode == rows.front().mode ? "" : ", " + row.mode) + ": " +
             times_less(row.ratio(payload)) + " times less payload\n";
     text += "        filter alone " + times_less(filter->ratio(payload)) + ", policy alone " + times_less(policy->ratio(payload)) + "; displayed error " +
             shown(row.of(error).mean) + " mm beside " + shown(none->of(error).mean) + " mm\n";
@@ -166,7 +173,7 @@ std::string explanation(const std::vector<SummaryRow>& rows, const Baseline& bas
 
 std::string table_of(std::span<const RunRecord> runs, bool is_coloured, const Baseline& baseline) {
   const std::vector<SummaryRow> rows = summarise(runs, baseline);
-  const Columns columns = differing_parameters(rows);
+  const Columns columns = columns_of(rows);
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool is_new_block = i == 0 || rows[i].mode != rows[i - 1].mode;

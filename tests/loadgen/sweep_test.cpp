@@ -94,8 +94,8 @@ TEST(Sweep, TheTableHasAColumnForWhatDiffersAndADashWhereASchemeLacksIt) {
   const Experiment experiment = sweep_of_cells();
   const std::string table = table_of(runs_of(experiment), false, {"none", "periodic"});
   EXPECT_THAT(table, AllOf(HasSubstr("cells, m"), HasSubstr("margin, m"), Not(HasSubstr("rate, Hz"))));
-  EXPECT_THAT(table, HasSubstr("grid         periodic          0       0.5 "));
-  EXPECT_THAT(table, HasSubstr("region       periodic       0.25         - "));
+  EXPECT_THAT(table, HasSubstr("grid    periodic          0       0.5 "));
+  EXPECT_THAT(table, HasSubstr("region  periodic       0.25         - "));
 }
 
 TEST(Sweep, SummariesHaveAColumnForEveryParameter) {
