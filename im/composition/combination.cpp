@@ -3,35 +3,23 @@
 
 #include <cassert>
 
-#include "im/composition/pair_states.h"
+#include "im/composition/reviewed_parts.h"
 
 namespace rink::im {
 namespace {
 
-class Combination final : public Parts {
+class Combination final : public ReviewedParts {
  public:
-  Combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps) : Parts(std::move(operands)), steps_(std::move(steps)) {
+  Combination(std::vector<std::unique_ptr<Filter>> operands, std::vector<Step> steps) : ReviewedParts(std::move(operands)), steps_(std::move(steps)) {
     assert(parts_.size() <= PairStates::filter_max && !follow(steps_, 0));
   }
 
-  void remove_entity(Entity entity) override {
-    Parts::remove_entity(entity);
-    pairs_.remove_entity(entity);
-  }
-  void remove_subscriber(Subscriber subscriber) override {
-    Parts::remove_subscriber(subscriber);
-    pairs_.remove_subscriber(subscriber);
-  }
   std::span<const Change> match() override {
-    for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
-    changes_.clear();
-    pairs_tested_ += pairs_.review([this](PairStates::Says says, PairStates::Level) { return PairStates::Level{follow(steps_, says)}; }, changes_);
-    return reported(changes_.span());
+    return matched([this](PairStates::Says says, PairStates::Level) { return PairStates::Level{follow(steps_, says)}; });
   }
 
  private:
   std::vector<Step> steps_;
-  PairStates pairs_;
 };
 
 }  // namespace

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "im/composition/pair_states.h"
-#include "im/composition/parts.h"
+#include "im/composition/reviewed_parts.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
@@ -16,27 +15,16 @@ Region grown(const Region& region, double margin) {
   return {bounded(region.low_x - margin), bounded(region.low_y - margin), bounded(region.high_x + margin), bounded(region.high_y + margin)};
 }
 
-class Hysteresis final : public Parts {
+class Hysteresis final : public ReviewedParts {
  public:
-  Hysteresis(std::vector<std::unique_ptr<Filter>> enter_and_stay, double margin) : Parts(std::move(enter_and_stay)), margin_(margin) {}
+  Hysteresis(std::vector<std::unique_ptr<Filter>> enter_and_stay, double margin) : ReviewedParts(std::move(enter_and_stay)), margin_(margin) {}
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);
     parts_[1]->set_subscription_region(subscriber, grown(region, margin_));
   }
-  void remove_entity(Entity entity) override {
-    Parts::remove_entity(entity);
-    pairs_.remove_entity(entity);
-  }
-  void remove_subscriber(Subscriber subscriber) override {
-    Parts::remove_subscriber(subscriber);
-    pairs_.remove_subscriber(subscriber);
-  }
   std::span<const Change> match() override {
-    for (std::size_t k = 0; k < 2; ++k) pairs_.take(k, parts_[k]->match());
-    changes_.clear();
-    pairs_tested_ += pairs_.review([this](PairStates::Says says, PairStates::Level was) { return decide(says, was); }, changes_);
-    return reported(changes_.span());
+    return matched([this](PairStates::Says says, PairStates::Level was) { return decide(says, was); });
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
@@ -52,7 +40,6 @@ class Hysteresis final : public Parts {
 
   double margin_;
   std::uint64_t stayed_ = 0;
-  PairStates pairs_;
 };
 
 }  // namespace

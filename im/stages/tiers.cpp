@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "im/composition/pair_states.h"
-#include "im/composition/parts.h"
+#include "im/composition/reviewed_parts.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
@@ -17,33 +16,23 @@ Region ring_of(const Region& region, double fraction) {
 }
 
 /// Part 0 is what it stands behind, part 1 + k the ring of tier k.
-class Tiers final : public Parts {
+class Tiers final : public ReviewedParts {
  public:
-  Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions) : Parts(std::move(parts)), fractions_(std::move(fractions)) {}
+  Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions) : ReviewedParts(std::move(parts)), fractions_(std::move(fractions)) {}
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     parts_[0]->set_subscription_region(subscriber, region);
     for (std::size_t k = 0; k < fractions_.size(); ++k) parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
   }
-  void remove_entity(Entity entity) override {
-    Parts::remove_entity(entity);
-    pairs_.remove_entity(entity);
-  }
-  void remove_subscriber(Subscriber subscriber) override {
-    Parts::remove_subscriber(subscriber);
-    pairs_.remove_subscriber(subscriber);
-  }
   std::span<const Change> match() override {
-    for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
-    changes_.clear();
     const auto level = [this](PairStates::Says says, PairStates::Level) {
       if ((says & 1u) == 0) return PairStates::Level{0};
       const auto tier = std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))), fractions_.size());
       return static_cast<PairStates::Level>(1 + tier);
     };
-    pairs_tested_ += pairs_.review(level, changes_);
-    for (const Change& change : changes_.span()) tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
-    return reported(changes_.span());
+    const std::span<const Change> changes = matched(level);
+    for (const Change& change : changes) tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
+    return changes;
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
@@ -53,7 +42,6 @@ class Tiers final : public Parts {
  private:
   std::vector<double> fractions_;
   std::uint64_t tier_changes_ = 0;
-  PairStates pairs_;
 };
 
 }  // namespace

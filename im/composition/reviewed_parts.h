@@ -1,0 +1,42 @@
+// A filter made of other filters that looks at a pair again when one of them changes its mind about it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "im/composition/pair_states.h"
+#include "im/composition/parts.h"
+
+namespace rink::im {
+
+/// What those derive from whose answer about a pair follows from what each part says of it and from what it was.
+class ReviewedParts : public Parts {
+ public:
+  explicit ReviewedParts(std::vector<std::unique_ptr<Filter>> parts) : Parts(std::move(parts)) {}
+
+  void remove_entity(Entity entity) override {
+    Parts::remove_entity(entity);
+    pairs_.remove_entity(entity);
+  }
+  void remove_subscriber(Subscriber subscriber) override {
+    Parts::remove_subscriber(subscriber);
+    pairs_.remove_subscriber(subscriber);
+  }
+
+ protected:
+  /// Lets every part match and asks `decide(says, was)` for the level of each pair about which one of them changed its mind. Returns what is to be reported.
+  template <class Decide>
+  std::span<const Change> matched(const Decide& decide) {
+    for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
+    changes_.clear();
+    pairs_tested_ += pairs_.review(decide, changes_);
+    return reported(changes_.span());
+  }
+
+ private:
+  PairStates pairs_;
+};
+
+}  // namespace rink::im
