@@ -72,6 +72,8 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
   if (!has(experiment.modes, peer_mode)) return;
   const auto refuse = [&file](const std::string& what) { throw ExperimentError(file + ": modes = " + peer_mode + " " + what); };
   if (experiment.transport != TransportKind::virtual_time) refuse(std::string("needs transport = \"virtual\", not \"") + to_string(experiment.transport) + "\"");
+  for (const std::string& scheme : experiment.schemes)
+    if (const std::vector<std::string> able{"none", "grid", "region", "hybrid", "aura", "diamond"}; !has(able, scheme)) refuse("has no '" + scheme + "': expected schemes of " + joined(able));
   if (experiment.keys != KeySource::replay) refuse("needs keys = \"replay\", which all peers know");
   if (has(experiment.policies, std::string("snapshot"))) refuse("knows the policies periodic and on-event, not snapshot");
   if (experiment.sweep_ticks != std::vector<double>{0.0}) refuse("sweeps no regions: expected sweep_ticks = 0");

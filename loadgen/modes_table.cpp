@@ -42,13 +42,15 @@ std::string modes_table(std::span<const RunRecord> runs) {
   if (!has_several_modes(runs)) return {};
   std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s both ways,\n"
                      "events/s and processor time, the mean node's; and a key's effect, ms\n";
-  text += "clients scheme  policy    mode         ";
-  for (const Column& column : columns) text += " " + padded(column.title, 7);
   std::vector<SummaryRow> rows = summarise(runs);
+  std::size_t width = 7;
+  for (const SummaryRow& row : rows) width = std::max(width, row.scheme.size());
+  text += "clients scheme" + std::string(width - 6, ' ') + " policy    mode         ";
+  for (const Column& column : columns) text += " " + padded(column.title, 7);
   std::stable_sort(rows.begin(), rows.end(), [](const SummaryRow& a, const SummaryRow& b) { return a.clients < b.clients; });
   for (const SummaryRow& row : rows) {
-    char head[64];
-    std::snprintf(head, sizeof head, "\n%7u %-7.7s %-9.9s %-13.13s", row.clients, row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
+    char head[256];
+    std::snprintf(head, sizeof head, "\n%7u %-*s %-9.9s %-13.13s", row.clients, static_cast<int>(width), row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
     text += head;
     for (const Column& column : columns) text += " " + padded(shown(row.of(column.figure).mean, column.scale), 7);
   }

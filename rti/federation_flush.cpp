@@ -102,6 +102,8 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   told_whole_.clear();
   is_all_told_ = false;
   const std::uint64_t before = counters_.updates_sent;
+  std::ranges::sort(interest_.of(slot).pressing);
+  for (const ObjectSlot each : interest_.of(slot).pressing) interest_.of(slot).fresh.insert(each);  // what this flush's runs say of them is part of what was told
   begin_datagrams(federate, outlet);
   if (federate.upward) acknowledge_datagrams(federate, outlet);
   scratch_.insert(scratch_.end(), federate.control.begin(), federate.control.end());
@@ -125,6 +127,8 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   FederateInterest& interest = interest_.of(slot);
   interest.events.clear();
   if (is_all_told_) interest.has_fresh = false;
+  for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
+  interest.pressing.clear();
   for (const ObjectSlot told : told_whole_) interest.fresh.erase(told);  // not before: their updates in this flush are part of what was told
   if (pieces_.empty() && scratch_.size() == frame_header_size) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
@@ -153,14 +157,19 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::siz
   if (interest.has_unannounced) {
     interest.announced_to = interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
       if (scratch_.size() >= end) return false;
-      announce(slot, object);
+      if (objects_[object].is_leaving && !interest.known.contains(object)) interest.unannounced.erase(object);
+      else announce(slot, object);
       return true;
     });
     interest.has_unannounced = scratch_.size() >= end;
   }
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
-    if (!object.is_alive) continue;  // it came and went between two flushes, or its removal is on its way
+    if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot)) continue;  // it came and went between two flushes, or its removal is on its way
+    if (object.is_leaving && !interest.known.contains(event.slot)) {
+      interest.unannounced.erase(event.slot);  // nobody discovers it any more
+      continue;
+    }
     if (event.transition == im::Transition::left) {
       if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
       else if (interest.known.contains(event.slot)) say(scratch_, OutOfScopeMessage{object.handle.value});
@@ -172,9 +181,6 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::siz
       ++counters_.entries_postponed;
     }
   }
-  for (const ObjectSlot object : interest.pressing)
-    if (interest.unannounced.contains(object)) announce(slot, object);
-  interest.pressing.clear();
   counters_.scope_bytes_sent += scratch_.size() - before;
 }
 
@@ -192,6 +198,19 @@ void FederationExecution::Parts::announce(std::uint32_t slot, ObjectSlot at) {
   say(scratch_, InScopeMessage{object.handle.value});
 }
 
+/// A message in time-stamp order is about to speak of it: it is announced, and its state told, before all else that this flush says.
+void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
+  FederateInterest& interest = interest_.of(slot);
+  std::vector<std::byte>& control = federates_[slot].control;
+  scratch_.swap(control);
+  announce(slot, object);
+  scratch_.swap(control);
+  say_last_state(slot, object, newest_of(object));
+  interest.fresh.erase(object);
+  interest.has_fresh = true;
+  interest.pressing.push_back(object);
+}
+
 /// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
 void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
@@ -200,7 +219,7 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
   const std::size_t before = scratch_.size();
   std::optional<UpdatesBlock> block;
   interest.told_to = interest.fresh.visit_from(interest.told_to, [&](ObjectSlot fresh) {
-    if (interest.unannounced.contains(fresh)) return true;
+    if (interest.unannounced.contains(fresh) || std::ranges::binary_search(interest.pressing, fresh)) return true;
     if (scratch_.size() >= end) {
       is_whole = false;
       return false;

@@ -30,7 +30,10 @@ Outcome FederationExecution::Parts::take_management(std::uint32_t slot, const In
   if (!reader.is_whole() || !reader.is_at_end() || period < 0 || handle >= slot_of_handle_.size()) return Violation::malformed;
   const std::uint32_t about = slot_of_handle_[handle];
   if (federates_[about].handle.value != handle) return ++counters_.late_requests, std::nullopt;  // it has left
-  if (asked == management_.set_timing) federates_[about].report_period = period;
+  if (asked == management_.set_timing) {
+    federates_[about].report_period = period;
+    if (management_objects_) management_objects_->timed(about);
+  }
   if (asked == management_.request_publications) report_publications(slot, about);
   if (asked == management_.request_subscriptions) report_subscriptions(slot, about);
   return std::nullopt;

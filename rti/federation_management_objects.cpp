@@ -61,10 +61,12 @@ void FederationExecution::Parts::ManagementObjects::add(Told& told, ObjectClassH
   told.object = {self.block * object_block + self.objects_registered++};
   told.is_due = true;
   parts_.interest_.object_registered(parts_.objects_.insert(told.object, slot_, static_cast<std::uint16_t>(object_class.value), {}));
+  if (&told != &federation_) slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
 }
 
 void FederationExecution::Parts::ManagementObjects::remove(Told& told) {
   if (told.object) parts_.delete_object(parts_.objects_.find(told.object));
+  slots_.erase(told.object.value);
   told = {};
 }
 
@@ -81,12 +83,10 @@ void FederationExecution::Parts::ManagementObjects::left(std::uint32_t slot) {
 }
 
 void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object, AttributeSet attributes) {
-  const auto note = [&](Told& told) {
-    if (told.object != parts_.objects_[object].handle) return;
-    told.asked = told.asked | (attributes & parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
-  };
-  note(federation_);
-  for (Told& each : federates_) note(each);
+  const auto slot = slots_.find(parts_.objects_[object].handle.value);
+  Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
+  if (told.object != parts_.objects_[object].handle) return;
+  told.asked = told.asked | (attributes & parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
 }
 
 void FederationExecution::Parts::ManagementObjects::tell() {

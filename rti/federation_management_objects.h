@@ -1,6 +1,8 @@
 // The RTI as the owner of the management object model's objects (IEEE 1516.1-2010, clause 11); for the federation execution's own sources only.
 #pragma once
 
+#include <unordered_map>
+
 #include "rti/federation_parts.h"
 
 namespace rink::rti {
@@ -16,6 +18,8 @@ class FederationExecution::Parts::ManagementObjects {
   void joined(std::uint32_t slot);
   /// While it is still known what it was.
   void left(std::uint32_t slot);
+  /// Its period of reports has changed: the next one is due a period from now.
+  void timed(std::uint32_t slot) { told_of(slot).due_at = parts_.now_ + parts_.federates_[slot].report_period; }
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
   bool owns(ObjectSlot object) const;
@@ -54,6 +58,7 @@ class FederationExecution::Parts::ManagementObjects {
   bool is_heard_ = false;
   Told federation_;
   std::vector<Told> federates_;  ///< by slot
+  std::unordered_map<std::uint32_t, std::uint32_t> slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;
   std::vector<std::size_t> ends_;
   std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, worked out once per `tell` that needs it

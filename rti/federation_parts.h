@@ -245,6 +245,7 @@ class FederationExecution::Parts {
   std::size_t entry_room(std::uint32_t slot, const Outlet& outlet) const;
   void write_scope_events(std::uint32_t slot, std::size_t end);
   void announce(std::uint32_t slot, ObjectSlot object);
+  void press(std::uint32_t slot, ObjectSlot object);
   void write_fresh_states(std::uint32_t slot, std::size_t end);
   bool holds_back(std::uint32_t slot, const Outlet& outlet);
   void hold_back(std::uint32_t slot);

@@ -99,9 +99,15 @@ bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& m
     if (object == no_object) return false;
     FederateInterest& interest = parts_.interest_.of(slot);
     const bool is_known = interest.known.contains(object);
-    if (!is_known && !interest.in_scope.contains(object) && !interest.unannounced.contains(object)) return false;
-    if (!is_known || interest.unannounced.contains(object)) interest.pressing.push_back(object);
-    if (message.kind == MessageKind::delete_object) interest.known.erase(object);
+    const bool is_in_scope = interest.in_scope.contains(object);
+    if (!is_known && !is_in_scope) return false;
+    if (message.kind == MessageKind::delete_object) {
+      interest.unannounced.erase(object);  // for who was not told of it, it was never there
+      if (!is_known) return false;
+      interest.known.erase(object);
+    } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) || interest.fresh.contains(object))) {
+      parts_.press(slot, object);
+    }
   }
   write_content(message, told);
   say(parts_.federates_[slot].tail, TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order), message.number, message.stamp, content_});

@@ -77,6 +77,7 @@ bool FederationExecution::Parts::take_datagram_updates(std::uint32_t slot, const
     if (object == no_object) return is_late({handle});
     if (objects_[object].object_class != message.object_class) return false;
     const AttributeSet owned = attributes & ownership_.owned_by(slot, object);
+    if (owned.is_empty()) return ++counters_.updates_outdated, true;  // nothing is kept of what is not its own
     const AttributeSet accepted = federates_[slot].upward->accept({handle}, message.object_class, owned, order_of_datagram(head));
     if (accepted.is_empty()) return ++counters_.updates_outdated, true;
     if (accepted == attributes) return store_update(slot, object, accepted, stamp, values), true;

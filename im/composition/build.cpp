@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -202,7 +203,13 @@ std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSetting
 std::string file_name_of(const std::string& expression) {
   std::string name;
   for (const char c : expression) name += c == ' ' ? '_' : c == '(' ? '[' : c == ')' ? ']' : c;
-  return name;
+  constexpr std::size_t size_max = 100;  // a file's name has 255, and more belongs to it
+  if (name.size() <= size_max) return name;
+  std::uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a (Fowler, Noll, Vo 1991)
+  for (const char c : name) digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  char tail[20];
+  std::snprintf(tail, sizeof tail, "-%016llx", static_cast<unsigned long long>(digest));
+  return name.substr(0, size_max - 17) + tail;
 }
 
 }  // namespace rink::im

@@ -10,6 +10,9 @@ namespace {
 
 /// Nobody writes so many parentheses; a stranger may not exhaust the stack with them.
 constexpr int depth_max = 32;
+/// Nor so many stages, each of which may double the filters behind it; and what is read is walked by recursion.
+constexpr int stages_max = 8;
+constexpr std::size_t expression_size_max = 4000;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -48,6 +51,7 @@ class Reader {
     if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
     Expression result = joined(Expression::Kind::alternative);
     while (take("with")) {
+      if (++stages_ > stages_max) return complain("more than " + std::to_string(stages_max) + " stages"), Expression{};
       Expression stage = named(Expression::Kind::stage, "expected the name of a stage");
       stage.operands.push_back(std::move(result));
       result = std::move(stage);
@@ -102,7 +106,7 @@ class Reader {
 
   std::string_view rest_, token_;
   bool is_number_ = false;
-  int depth_ = 0;
+  int depth_ = 0, stages_ = 0;
   std::string complaint_;
 };
 
@@ -114,6 +118,9 @@ double Expression::parameter(std::string_view key, double otherwise) const {
   return otherwise;
 }
 
-std::string read_expression(std::string_view text, Expression& expression) { return Reader(text).read(expression); }
+std::string read_expression(std::string_view text, Expression& expression) {
+  if (text.size() > expression_size_max) return "longer than " + std::to_string(expression_size_max) + " characters";
+  return Reader(text).read(expression);
+}
 
 }  // namespace rink::im

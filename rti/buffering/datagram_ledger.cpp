@@ -67,6 +67,7 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
 void DatagramLedger::expire(double now, std::vector<Lost>& lost) {
   const double patience_s = 0.1 + DatagramReceipts::longest_delay_s + 2.0 * smoothed_s_;
   if (size_ == 0 || now - oldest_sent_s_ <= patience_s) return;
+  smoothed_s_ = std::min(1.0, 2.0 * std::max(smoothed_s_, 0.05));  // no answer ever tells how long one takes that comes after we have given up
   lose([&](std::uint32_t number) { return now - at(number).sent_s > patience_s; }, lost);
   forget_settled();
 }

@@ -48,7 +48,7 @@ struct FederateInterest {
   Bitmap unannounced;                   ///< in scope, and it will be told so by a later flush; their states stay fresh until then
   bool has_unannounced = false;
   std::uint32_t announced_to = 0, told_to = 0;  ///< where the last flush without room for all of `unannounced` and `fresh` stopped
-  std::vector<ObjectSlot> pressing;     ///< something in this flush speaks of them, so if they are not announced they are announced now
+  std::vector<ObjectSlot> pressing;     ///< announced, and their state told, before all else in this flush, since something in time-stamp order speaks of them
   bool is_uniform = true;               ///< all of a class's objects in scope have the same attributes: `by_class`; else `by_object`
   std::vector<AttributeSet> by_class, by_object;
 

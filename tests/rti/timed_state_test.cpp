@@ -80,6 +80,66 @@ TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
   EXPECT_EQ(receiver.heard[receiver.heard.size() - 2].text, text_of(port));
 }
 
+/// An owner of four ferries, one who waits for what the owner says, and a newcomer who has been told of the first ferry when something is said of the last.
+class NewcomerOfALargeWorld : public ::testing::TestWithParam<bool> {
+ protected:
+  NewcomerOfALargeWorld() {
+    owner.ambassador.publish_object_class_attributes(ferry, harbour().attributes(ferry));
+    if (GetParam()) waiting.ambassador.subscribe_object_class_attributes(ferry, {destination});
+    for (int i = 0; i < 4; ++i) ferries.push_back(owner.ambassador.register_object_instance(ferry));
+    owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Piombino"), LogicalTime(1.5));
+    step(20);
+    advance(2.0);
+    newcomer.ambassador.subscribe_object_class_attributes(ferry, {destination});
+    step(1);
+  }
+  void step(int count) {
+    for (int i = 0; i < count; ++i) {
+      for (TimedFederate* each : {&owner, &waiting, &newcomer}) federation.carry_up(*each);
+      federation.tick();
+      for (TimedFederate* each : {&owner, &waiting, &newcomer}) federation.carry_down(*each);
+    }
+  }
+  void advance(double time) {
+    for (TimedFederate* each : {&owner, &waiting}) each->ambassador.time_advance_request(LogicalTime(time));
+    step(20);
+  }
+  std::string last_port() const {
+    const auto last = std::find_if(newcomer.heard.rbegin(), newcomer.heard.rend(), [](const auto& each) { return each.what == What::message || each.what == What::receive_order; });
+    return last == newcomer.heard.rend() ? "" : last->text.substr(4);
+  }
+  TimedFederation federation{relaxed(), with_entry_room(1)};
+  TimedFederate& owner = federation.join_timed(1.0);
+  TimedFederate& waiting = federation.join_timed(-1.0);
+  TimedFederate& newcomer = federation.join();
+  std::vector<ObjectHandle> ferries;
+};
+
+TEST_P(NewcomerOfALargeWorld, IsNotLostByTheDeletionOfWhatItWasNotToldOfYet) {
+  owner.ambassador.update_attribute_values(ferries[2], {destination}, varying("Bastia"), LogicalTime(4.0));
+  owner.ambassador.delete_object_instance(ferries[2], LogicalTime(4.0));
+  owner.ambassador.delete_object_instance(ferries[3], LogicalTime(4.0));
+  step(10);
+  advance(10.0);
+  EXPECT_EQ(newcomer.lost, "");
+  EXPECT_EQ(waiting.lost, "");
+  EXPECT_EQ(owner.lost, "");
+  EXPECT_EQ(newcomer.times(What::removal).size(), 1u) << "of the ferry of which it was told since something was said of it";
+}
+
+TEST_P(NewcomerOfALargeWorld, DoesNotGoBackToWhatWasBeforeTheNewestThatItWasTold) {
+  owner.ambassador.update_attribute_values(ferries.back(), {destination}, varying("Bastia"), LogicalTime(4.0));
+  step(1);
+  EXPECT_EQ(last_port(), "Bastia");
+  step(10);
+  EXPECT_EQ(last_port(), "Bastia");
+  advance(10.0);
+  EXPECT_EQ(last_port(), "Bastia");
+  EXPECT_EQ(newcomer.lost, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(While, NewcomerOfALargeWorld, ::testing::Bool(), [](const auto& is_waiting) { return is_waiting.param ? "SomebodyWaitsForTheSame" : "NobodyElseHearsOfIt"; });
+
 TEST(TimedMessages, OneWhoNeverAdvancesIsLostBeforeWhatWaitsForItCostsTheOthersTheirSender) {
   FederationSettings settings;
   settings.timed_max = 100;

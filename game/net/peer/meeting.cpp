@@ -168,13 +168,18 @@ void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) { say(*
 
 std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
   Link& link = link_of(from);
-  for (const double begin_s = now_s_();;) {
+  double begin_s = now_s_(), looked_s = begin_s;
+  for (;;) {
+    // Who was stopped itself may not call that the others' silence: what they said meanwhile has not been read yet.
+    const double now = now_s_();
+    if (now - looked_s > std::max(0.5 * settings_.patience_s, 2.0 * wait_s_max)) begin_s = now;
+    looked_s = now;
     for (const auto& [connection, other] : links_)
       if (!other.loss.empty() && !other.is_parted) throw peer::PeerGone(other.number, false, other.loss);
     if (!link.inbox.empty()) break;
     if (link.is_done && may_lose_) throw peer::PeerGone(from, true, name_of(link) + " has left");
     if (link.is_done) throw Parting(ExitStatus::connection_lost, name_of(link) + " left before the end");
-    if (now_s_() > std::max(begin_s, link.heard_s) + settings_.patience_s)
+    if (now > std::max(begin_s, link.heard_s) + settings_.patience_s)
       lose(link, ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s");
     if (link.loss.empty()) attend(wait_s_max);
   }

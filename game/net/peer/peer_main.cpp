@@ -154,8 +154,10 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     const double playing_s = now_s() - start_s;
     meeting.leave({});
     if (part.has_left) spdlog::warn("interrupted at {} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
-    else write_record(options, shared, part, meeting.terms());
+    // First what cannot be had again, should the file refuse.
     std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
+    if (std::fflush(stdout) != 0) spdlog::error("the report could not be written to the standard output");
+    if (!part.has_left) write_record(options, shared, part, meeting.terms());
     return part.has_left ? game::ExitStatus::interrupted : game::ExitStatus::ok;
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
@@ -197,6 +199,7 @@ game::ExitStatus share_among_ranks(Options options) {
   const game::SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
+  options.terms.balance_windows = 0;  // zones stay: ranks have said nothing of that to each other
   options.terms.is_mirrored = false;  // MPI ends all of them if one is lost
   game::RankMail mail(ranks, options.patience_s, now_s, wait_for_ranks);
   try {
