@@ -89,7 +89,7 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
   if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
   if (!settings_.members.empty() && std::ranges::find(settings_.members, message.name) == settings_.members.end()) return refuse(connection, Refusal::not_listed), std::nullopt;
   if (names_.contains(std::string(message.name))) return refuse(connection, Refusal::name_taken), std::nullopt;
-  const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ == object_block_max);
+  const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ >= object_block_max);
   if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
   admit(connection, message);
   return std::nullopt;

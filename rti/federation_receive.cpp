@@ -200,12 +200,10 @@ Outcome FederationExecution::Parts::take_updates(std::uint32_t slot, Reader& rea
   if (!fom_.attributes(object_class).includes(attributes) || attributes.is_empty()) return Violation::unknown_name;
   if (!federates_[slot].published[message.object_class].includes(attributes)) return Violation::undeclared;
   Outcome outcome;
-  const std::uint64_t before = counters_.updates_received;
   const bool is_read = read_records(reader, fom_.at(object_class), attributes, [&](std::uint32_t handle, Bytes values) {
     outcome = take_update(slot, message, {handle}, values);
     return !outcome;
   });
-  federates_[slot].counts.updates_sent += counters_.updates_received - before;
   return is_read || outcome ? outcome : Violation::malformed;
 }
 
@@ -228,6 +226,7 @@ void FederationExecution::Parts::store_update(std::uint32_t slot, ObjectSlot obj
   if (has_ways_) append_apart(slot, object, attributes, stamp, values);
   else buffering_->append(slot, object, objects_[object], attributes, stamp, values);
   ++counters_.updates_received;
+  ++owner.counts.updates_sent;
 }
 
 Outcome FederationExecution::Parts::take_interaction(std::uint32_t slot, Reader& reader) {

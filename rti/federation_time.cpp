@@ -106,6 +106,9 @@ Outcome FederationExecution::Parts::Time::take_message(std::uint32_t slot, Reade
   message.is_retractable = true;
   arrived_.push_back(index);
   ++parts_.counters_.timed_received;
+  FederateCounts& counts = parts_.federates_[slot].counts;
+  if (message.kind == MessageKind::updates) ++counts.updates_sent;
+  if (message.kind == MessageKind::interaction) ++counts.interactions_sent;
   if (from.sent.size() < from.compact_at && from.bytes < from.compact_bytes_at) return std::nullopt;
   forget_final(slot);
   return is_greedy(from) ? Violation::over_limit : Outcome();

@@ -112,6 +112,9 @@ bool FederationExecution::Parts::Time::tell(std::uint32_t slot, const Message& m
   write_content(message, told);
   say(parts_.federates_[slot].tail, TimedDeliveryMessage{message.sender.value, static_cast<std::uint8_t>(is_in_order), message.number, message.stamp, content_});
   ++parts_.counters_.timed_sent;
+  FederateCounts& counts = parts_.federates_[slot].counts;
+  if (message.kind == MessageKind::updates) ++counts.reflections_received;
+  if (message.kind == MessageKind::interaction) ++counts.interactions_received;
   return true;
 }
 

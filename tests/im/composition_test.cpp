@@ -133,7 +133,12 @@ TEST(Expression, IsRefusedByNameWhereItIsWrong) {
   EXPECT_EQ(complaint("aura with tiers(at=0.5 at=0.2)"), "tiers: at must ascend");
   EXPECT_THAT(complaint("aura with tiers(at=0.5) with dwell(matches=2)"), HasSubstr("after tiers nothing may follow but priority"));
   EXPECT_EQ(complaint("aura with tiers(at=0.5) with priority"), "");
-  EXPECT_THAT(complaint(std::string(5000, '(')), HasSubstr("more than 32 levels"));
+  EXPECT_THAT(complaint(std::string(3000, '(')), HasSubstr("more than 32 levels"));
+  std::string chain = "aura", stages = "aura";
+  for (int i = 0; i < 20'000; ++i) chain += " or aura";
+  for (int i = 0; i < 24; ++i) stages += " with hysteresis(margin=0.1)";
+  EXPECT_THAT(complaint(chain), HasSubstr("longer than 4000 characters"));
+  EXPECT_THAT(complaint(stages), HasSubstr("more than 8 stages"));
   std::string many = "aura";
   for (int i = 0; i < 14; ++i) many += " or aura";
   EXPECT_EQ(complaint(many), "");

@@ -80,6 +80,19 @@ TEST_F(TimedState, EachReceiverIsToldTheAttributesThatItNamed) {
   EXPECT_EQ(receiver.heard[receiver.heard.size() - 2].text, text_of(port));
 }
 
+TEST_F(TimedState, WhatGoesInTimeStampOrderIsCountedAsWhatGoesOtherwiseIs) {
+  for (int i = 0; i < 7; ++i) sail("Bastia", 2.0 + i);
+  for (int i = 0; i < 5; ++i) TimedFederation::say(owner, 2.0 + i, "ahoy");
+  federation.carry();
+  advance_both(9.0);
+  const FederationReport report = federation.execution().report();
+  ASSERT_EQ(report.federates.size(), 2u);
+  EXPECT_EQ(report.federates[0].counts.updates_sent, 7u);
+  EXPECT_EQ(report.federates[0].counts.interactions_sent, 5u);
+  EXPECT_EQ(report.federates[1].counts.reflections_received, 7u);
+  EXPECT_EQ(report.federates[1].counts.interactions_received, 5u);
+}
+
 /// An owner of four ferries, one who waits for what the owner says, and a newcomer who has been told of the first ferry when something is said of the last.
 class NewcomerOfALargeWorld : public ::testing::TestWithParam<bool> {
  protected:
