@@ -81,7 +81,7 @@ void Client::look_around(const Position& centre) {
 
 void Client::follow_bat(double instant) {
   const MirroredEntity* own = bat();
-  if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr) return;
+  if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr || !own->is_placed) return;
   const Position there = rounded(own->position_at(instant));
   if (there == centre_) return;
   const double moved = std::max(std::abs(double(there.x) - double(centre_.x)), std::abs(double(there.y) - double(centre_.y)));
@@ -130,7 +130,7 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
 /// The barrier is reached with the own bat in sight, so that nothing of the start-up falls into the measured time.
 void Client::reach_barrier_once_ready() {
   const MirroredEntity* own = bat();
-  if (state_ == State::seated && own != nullptr && own->in_scope) state_ = State::ready;
+  if (state_ == State::seated && own != nullptr && own->in_scope && own->is_placed) state_ = State::ready;
   if (state_ != State::ready || !is_time_kept()) return;
   if (is_called_) {
     ambassador_.synchronization_point_achieved(start_barrier);

@@ -9,7 +9,7 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
   if (known_.find(object) != nullptr) return;
   if (object_class == model_.entity) {
     known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
-    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .in_scope = false});
+    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .is_placed = false, .in_scope = false});
   } else if (object_class == model_.score) {
     known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {
@@ -29,6 +29,7 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
     MirroredEntity& entity = entities_[told->slot];
     entity.stamp = stamp;
     is_sound = reflect_entity(entity, attributes, values);
+    entity.is_placed |= is_sound && (attributes.contains(model_.position) || attributes.contains(model_.trajectory) || attributes.contains(model_.snapshot));
   } else if (told->kind == Kind::score) {
     is_sound = decode(values, goals_);
   } else if (told->kind == Kind::field) {
