@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include "game/net/fom_file.h"
+#include "game/replication/trajectory_codec.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 
@@ -78,6 +80,24 @@ TEST_P(MirrorUnderScheme, LateJoinerKnowsItsSurroundingsAfterOneTickAndDiscovers
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, MirrorUnderScheme, testing::Values("none", "grid", "region"), [](const auto& info) { return std::string(info.param); });
+
+TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
+  const rti::Fom fom = load_rink_fom(fom_file());
+  const ObjectModel model(fom);
+  Mirror mirror(model);
+  const rti::ObjectHandle object{7};
+  mirror.discover(object, model.entity);
+  ASSERT_NE(mirror.find(object), nullptr);
+  EXPECT_FALSE(mirror.find(object)->is_placed);
+  std::vector<std::byte> bytes;
+  const Input input{};
+  mirror.reflect(object, rti::AttributeSet{model.input}, encode(bytes, input), {});
+  EXPECT_FALSE(mirror.find(object)->is_placed);
+  const Position there{1.0f, 2.0f};
+  mirror.reflect(object, rti::AttributeSet{model.position}, encode(bytes, there), {});
+  EXPECT_TRUE(mirror.find(object)->is_placed);
+  EXPECT_EQ(mirror.find(object)->position, there);
+}
 
 }  // namespace
 }  // namespace rink::game
