@@ -1,5 +1,7 @@
 // Declaration management at the federate's side (IEEE 1516.1-2010, clause 5), and what is not sent since nobody hears it (docs/rti.md, "Nobody listens").
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "rti/ambassador_say.h"
 #include "rti/wire/declaration_messages.h"
@@ -90,23 +92,30 @@ void AmbassadorParts::switch_advisory(Advisory advisory, bool is_on) {
     for (std::uint32_t i = 0; i < declared_.interactions.size(); ++i) advise(InteractionClassHandle{i});
 }
 
-/// Tells what has changed since the federate was last told (5.10, 5.11); while its switch is off nothing counts as told.
-void AmbassadorParts::advise(ObjectClassHandle object_class) {
-  DeclaredState::Class& declared = declared_.objects[object_class.value];
-  const bool is_on = declared_.is_on(Advisory::object_class_relevance);
+namespace {
+
+/// Whether the class became relevant (true), or ceased to be (false), since the federate was last told; while its switch is off nothing counts as told.
+std::optional<bool> turn_of(DeclaredState::Class& declared, bool is_on) {
   const bool is_relevant = is_on && !(declared.published & declared.others.active).is_empty();
-  if (std::exchange(declared.is_relevant, is_relevant) == is_relevant || !is_on) return;
-  if (is_relevant) callbacks_.start_registration_for_object_class(object_class);
+  if (std::exchange(declared.is_relevant, is_relevant) == is_relevant || !is_on) return std::nullopt;
+  return is_relevant;
+}
+
+}  // namespace
+
+/// 5.10, 5.11.
+void AmbassadorParts::advise(ObjectClassHandle object_class) {
+  const auto is_relevant = turn_of(declared_.objects[object_class.value], declared_.is_on(Advisory::object_class_relevance));
+  if (!is_relevant) return;
+  if (*is_relevant) callbacks_.start_registration_for_object_class(object_class);
   else callbacks_.stop_registration_for_object_class(object_class);
 }
 
 /// 5.12, 5.13.
 void AmbassadorParts::advise(InteractionClassHandle interaction_class) {
-  DeclaredState::Class& declared = declared_.interactions[interaction_class.value];
-  const bool is_on = declared_.is_on(Advisory::interaction_relevance);
-  const bool is_relevant = is_on && !(declared.published & declared.others.active).is_empty();
-  if (std::exchange(declared.is_relevant, is_relevant) == is_relevant || !is_on) return;
-  if (is_relevant) callbacks_.turn_interactions_on(interaction_class);
+  const auto is_relevant = turn_of(declared_.interactions[interaction_class.value], declared_.is_on(Advisory::interaction_relevance));
+  if (!is_relevant) return;
+  if (*is_relevant) callbacks_.turn_interactions_on(interaction_class);
   else callbacks_.turn_interactions_off(interaction_class);
 }
 

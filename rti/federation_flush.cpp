@@ -154,10 +154,11 @@ std::size_t FederationExecution::Parts::entry_room(std::uint32_t slot, const Out
 void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
   const std::size_t before = scratch_.size();
+  const auto is_too_late = [&](ObjectSlot object) { return objects_[object].is_leaving && !interest.known.contains(object); };  // nobody discovers it any more
   if (interest.has_unannounced) {
     interest.announced_to = interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
       if (scratch_.size() >= end) return false;
-      if (objects_[object].is_leaving && !interest.known.contains(object)) interest.unannounced.erase(object);
+      if (is_too_late(object)) interest.unannounced.erase(object);
       else announce(slot, object);
       return true;
     });
@@ -166,8 +167,8 @@ void FederationExecution::Parts::write_scope_events(std::uint32_t slot, std::siz
   for (const ScopeEvent& event : interest.events) {
     const Object& object = objects_[event.slot];
     if (!object.is_alive || std::ranges::binary_search(interest.pressing, event.slot)) continue;  // it came and went between two flushes, or its removal is on its way
-    if (object.is_leaving && !interest.known.contains(event.slot)) {
-      interest.unannounced.erase(event.slot);  // nobody discovers it any more
+    if (is_too_late(event.slot)) {
+      interest.unannounced.erase(event.slot);
       continue;
     }
     if (event.transition == im::Transition::left) {

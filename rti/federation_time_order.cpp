@@ -42,7 +42,7 @@ void FederationExecution::Parts::Time::find_receivers(Message& message) {
     if (!parts_.federates_[slot].is_joined) continue;
     const FederateInterest& interest = parts_.interest_.of(slot);
     const AttributeSet told = interest.told(object, parts_.objects_[object].object_class) & message.attributes;
-    const bool is_concerned = message.kind == MessageKind::updates ? !told.is_empty() : interest.known.contains(object) || interest.in_scope.contains(object) || interest.unannounced.contains(object);
+    const bool is_concerned = message.kind == MessageKind::updates ? !told.is_empty() : interest.known.contains(object) || interest.in_scope.contains(object);
     if (is_concerned) add(slot, told);
   }
   if (message.kind == MessageKind::delete_object) parts_.interest_.object_deleted(object);  // nobody else shall discover it any more
