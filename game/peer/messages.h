@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@ struct Press {
   std::uint32_t bat = 0;
   Vector2 thrust{0.0, 0.0};  ///< from the stamp on [m/s^2]
   std::uint8_t input = 1;    ///< as Key's, not 0
+  double time = 0.0;         ///< not before this instant [s], for players whose hands have seen the bat move at it already
 };
 
 /// What the owner of a bat shows, at a window's end, to the peer that plays it.
@@ -119,7 +121,7 @@ bool exchange(Stream& stream, Key& key) {
 
 template <class Stream>
 bool exchange(Stream& stream, Press& press) {
-  return stream.numbers(press.bat, press.thrust.x(), press.thrust.y(), press.input) && press.thrust.allFinite() && press.input != 0;
+  return stream.numbers(press.bat, press.thrust.x(), press.thrust.y(), press.input, press.time) && press.thrust.allFinite() && press.input != 0 && std::isfinite(press.time);
 }
 
 template <class Stream>

@@ -27,7 +27,7 @@ struct PeerCounters {
   PeerCounters& operator+=(const PeerCounters& other);
 };
 
-/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ... [s], at the `puck_count` nearest pucks.
+/// A bat that a live player of `peer` plays, who looks about at `phase`, `phase` + `period`, ... [s], or at every window's end if `period` is 0, at the `puck_count` nearest pucks.
 struct Seat {
   std::uint32_t bat = 0;
   PeerNumber peer = 0;
@@ -77,8 +77,11 @@ class Peer {
   /// Of all own bats that `player` plays, whether it is due or not.
   std::vector<Glimpse> glimpses_of_all(PeerNumber player) const;
   /// After a commit and before the claims of the next window: an own player's key, which goes to `owner`, the one that the newest glimpse of the bat names. It is stamped there
-  /// with the end of that window.
+  /// with the end of that window or, if that is later, with the instant that it names, though not more than `ahead_max` later; a player's keys must name instants that do not fall.
   void press(PeerNumber owner, const Press& press) { presses_[owner].push_back(press); }
+  static constexpr double ahead_max = 1.0;  ///< s
+  /// Of the window that comes next [s].
+  double end() const { return end_; }
   /// Keys of live players that took effect on own bats in the last window, in order.
   const std::vector<Key>& log() const { return log_; }
 

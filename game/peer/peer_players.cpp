@@ -8,6 +8,7 @@
 namespace rink::peer {
 
 bool Seat::is_due(double begin, double end) const {
+  if (period == 0.0) return true;
   const auto count = [this](double time) { return std::floor((time - phase) / period); };
   return end >= phase && (begin < phase || count(end) > count(begin));
 }
@@ -51,7 +52,7 @@ void Peer::take_glimpses(PeerNumber from) {
   }
 }
 
-/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still be told of.
+/// All peers stamp alike: with the first instant that those who have the bat as a ghost can still be told of, or the one that the player wants.
 void Peer::take_presses() {
   claims_[number_].presses = std::exchange(presses_[number_], {});
   for (PeerNumber from = 0; from < claims_.size(); ++from) {
@@ -59,7 +60,7 @@ void Peer::take_presses() {
       const auto is_it = [&](const Seat& seat) { return seat.bat == press.bat && seat.peer == from; };
       if (std::none_of(seats_.begin(), seats_.end(), is_it)) accuse(from, "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
       else if (roles_[press.bat] != own) accuse(from, "presses a key of bat " + std::to_string(press.bat) + " here, where it is not");
-      else keys_.push_back({end_, press.bat, press.thrust, press.input});
+      else keys_.push_back({std::clamp(press.time, end_, end_ + ahead_max), press.bat, press.thrust, press.input});
     }
     claims_[from].presses.clear();
   }

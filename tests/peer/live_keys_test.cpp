@@ -1,6 +1,7 @@
 // Keys pressed while peers play: they go to whoever owns the bat, and a replay of the owners' logs is the same game.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <iostream>
 #include <map>
 
@@ -11,7 +12,7 @@ namespace rink::peer::test {
 namespace {
 
 struct Counts {
-  std::uint64_t keys = 0, foreign_keys = 0, glimpses = 0, moved_bats = 0;
+  std::uint64_t keys = 0, foreign_keys = 0, timed_keys = 0, glimpses = 0, moved_bats = 0;
 };
 
 /// Scene `number` of those with bats, each of which a random peer plays, at random, by what it is shown.
@@ -23,8 +24,8 @@ class LiveGame {
     scene_.keys.clear();
     for (std::uint32_t body = 0; body < scene_.world.body_count(); ++body) {
       if (scene_.world.kind({body}) != physics::BodyKind::bat) continue;
-      const double period = below(random_, 2) == 0 ? window : 3.5 * window;
-      seats_[body] = {.bat = body, .peer = below(random_, peer_count_), .period = period, .phase = uniform(random_, 0.0, 0.999 * period), .puck_count = 4};
+      const double period = std::array{window, 3.5 * window, 0.0}[below(random_, 3)];
+      seats_[body] = {.bat = body, .peer = below(random_, peer_count_), .period = period, .phase = uniform(random_, 0.0, 0.999 * window), .puck_count = 4};
       owners_[body] = division_.owner_of(scene_.world.position({body}));
     }
     for (Peer& peer : assembly_.peers())
@@ -52,7 +53,10 @@ class LiveGame {
     for (const Key& key : log) {
       physics::test::RandomKeys::advance(scene_.world, key.time);
       scene_.world.set_thrust({key.bat}, key.thrust);
-      EXPECT_EQ(key.input, wishes_[key.bat].front().input);  // none is lost, none comes twice, in the order in which they were pressed
+      const Wish wish = wishes_[key.bat].front();  // none is lost, none comes twice, in the order in which they were pressed
+      EXPECT_EQ(key.input, wish.press.input);
+      EXPECT_EQ(key.time, std::clamp(wish.press.time, wish.window_end, wish.window_end + Peer::ahead_max));
+      counts.timed_keys += key.time != wish.window_end;
       wishes_[key.bat].pop_front();
     }
     physics::test::RandomKeys::advance(scene_.world, until);
@@ -74,9 +78,11 @@ class LiveGame {
       }
       for (std::uint32_t k = below(random_, 3); k > 0; --k) {
         const double x = static_cast<double>(below(random_, 3)) - 1.0, y = static_cast<double>(below(random_, 3)) - 1.0;
-        const Press press{glimpse.bat, Vector2(x, y) * 6.0, static_cast<std::uint8_t>(1 + counts.glimpses % 200)};
+        double& wanted = wanted_[glimpse.bat];
+        wanted = std::max(wanted, now + uniform(random_, -1.0, 3.0) * window_);
+        const Press press{glimpse.bat, Vector2(x, y) * 6.0, static_cast<std::uint8_t>(1 + counts.glimpses % 200), wanted};
         peer.press(glimpse.owner, press);
-        wishes_[glimpse.bat].push_back(press);
+        wishes_[glimpse.bat].push_back({press, peer.end()});
         counts.foreign_keys += owner != peer.number();
       }
     }
@@ -90,7 +96,12 @@ class LiveGame {
   Assembly assembly_;
   std::map<std::uint32_t, Seat> seats_;
   std::map<std::uint32_t, PeerNumber> owners_;
-  std::map<std::uint32_t, std::deque<Press>> wishes_;
+  struct Wish {
+    Press press;
+    double window_end;
+  };
+  std::map<std::uint32_t, double> wanted_;
+  std::map<std::uint32_t, std::deque<Wish>> wishes_;
 };
 
 TEST(LiveKeys, GoToTheOwnersWhoseLogsAreTheSameGameToTheLastDigit) {
@@ -99,8 +110,8 @@ TEST(LiveKeys, GoToTheOwnersWhoseLogsAreTheSameGameToTheLastDigit) {
     SCOPED_TRACE("scene " + std::to_string(number));
     LiveGame(number, 0.02).play(120, counts);
   }
-  std::cout << counts.keys << " keys, " << counts.foreign_keys << " pressed of bats that others own, by " << counts.glimpses << " glimpses; bats changed their owners " << counts.moved_bats << " times\n";
-  for (const std::uint64_t count : {counts.keys, counts.foreign_keys, counts.glimpses, counts.moved_bats}) EXPECT_GT(count, 0u);
+  std::cout << counts.keys << " keys, " << counts.foreign_keys << " pressed of bats that others own, " << counts.timed_keys << " for an instant after their window, by " << counts.glimpses << " glimpses; bats changed their owners " << counts.moved_bats << " times\n";
+  for (const std::uint64_t count : {counts.keys, counts.foreign_keys, counts.timed_keys, counts.glimpses, counts.moved_bats}) EXPECT_GT(count, 0u);
 }
 
 TEST(LiveKeys, OfABatThatSomebodyElsePlaysAreAnAccusation) {

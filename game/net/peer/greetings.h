@@ -12,7 +12,7 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 3;
+inline constexpr std::uint32_t peer_protocol_version = 4;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
@@ -26,10 +26,11 @@ struct Place {
   std::string text() const { return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port); }
 };
 
-/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks.
+/// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks. The first `hand_count` of them are played by persons, who look
+/// at every window's end.
 struct Guest {
   Place place;
-  std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0;
+  std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
 };
 
 /// What every peer brings along, and must be equal at all.
@@ -108,7 +109,7 @@ bool exchange(Stream& stream, Place& place) {
 
 template <class Stream>
 bool exchange(Stream& stream, Guest& guest) {
-  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count);
+  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count, guest.hand_count) && guest.hand_count <= guest.bat_count;
 }
 
 template <class Stream>

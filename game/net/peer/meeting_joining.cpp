@@ -24,7 +24,7 @@ void Meeting::found(const Terms& terms) {
 }
 
 void Meeting::join(const Place& any) {
-  dial({any, 0, 0, 0}, Role::asked, 0);
+  dial({.place = any}, Role::asked, 0);
   for (const double give_up_s = now_s_() + settings_.patience_s; !is_in_;) {
     if (now_s_() > give_up_s) throw Parting(ExitStatus::no_server, "no peer has answered at " + any.text());
     attend(0.05);
