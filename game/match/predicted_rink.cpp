@@ -38,7 +38,7 @@ PredictedRink::PredictedRink(const Scene& scene, std::optional<std::uint32_t> ow
       own_(own_player),
       ids_(body_count()),
       held_(scene.bodies.bats.size()),
-      left_at_(scene.bodies.pucks.size(), Vector2(0.0, 0.0)),
+      left_at_(body_count(), Vector2(0.0, 0.0)),
       lags_(scene.bodies.pucks.size(), 0.0),
       blends_(body_count()),
       shown_bats_(scene.bodies.bats.size()),
@@ -55,15 +55,21 @@ void PredictedRink::press(Key key, bool is_down, double instant) {
 void PredictedRink::hear(const ToldRink& told) {
   assert(told.bats.size() == scene_.bodies.bats.size() && told.pucks.size() == scene_.bodies.pucks.size());
   if (world_ && told.time < told_.time) return;
+  std::vector<std::uint8_t> was_known;
+  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body) was_known.push_back(is_known(body) ? 1 : 0);
   told_ = told;
   for (; felt_ < told.own_felt && !keys_.empty(); ++felt_) keys_.pop_front();
   felt_ = std::max(felt_, told.own_felt);
   std::vector<Vector2> before;
-  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body) before.push_back(at(body, time_of(body)).position);
+  for (std::size_t body = 0; has_looked_ && body < body_count(); ++body) before.push_back(was_known[body] != 0 ? at(body, time_of(body)).position : Vector2(0.0, 0.0));
   set_up();
   if (!has_looked_) return;
   play(now_);
   for (std::size_t body = 0; body < body_count(); ++body) {
+    if (was_known[body] == 0 || !is_known(body)) {
+      blends_[body] = {};
+      continue;
+    }
     const Vector2 jump = before[body] - at(body, time_of(body)).position;
     const double length = jump.norm();
     if (length > blended_furthest && body >= held_.size()) {
@@ -87,30 +93,38 @@ Corrections& PredictedRink::corrections_of(std::size_t body) {
 }
 
 void PredictedRink::set_up() {
-  const ToldRink& told = told_;
   world_.emplace(scene_.world);
   applied_ = 0;
   for (const Post& post : scene_.bodies.posts) world_->add(post.body);
-  for (std::uint32_t bat = 0; bat < held_.size(); ++bat) {
-    physics::BatSpec body = scene_.bodies.bats[bat].body;
-    body.position = inside(told.bats[bat].position, body);
-    body.velocity = told.bats[bat].velocity;
-    ids_[bat] = world_->add(body);
-    held_[bat] = told.bats[bat].held;
-    set_thrust(bat);
-  }
-  for (std::size_t puck = 0; puck < scene_.bodies.pucks.size(); ++puck) {
-    std::optional<physics::BodyId>& id = ids_[held_.size() + puck];
-    id.reset();
-    left_at_[puck] = told.pucks[puck].position;
-    if (!told.pucks[puck].is_in_play) continue;
-    physics::PuckSpec body = scene_.bodies.pucks[puck].body;
-    body.position = inside(told.pucks[puck].position, body.radius);
-    body.velocity = told.pucks[puck].velocity;
-    id = world_->add(body);
-  }
-  while (!track_.empty() && track_.back().time >= told.time) track_.pop_back();
-  sample(told.time);
+  for (std::uint32_t bat = 0; bat < held_.size(); ++bat) add_bat(bat);
+  for (std::size_t puck = 0; puck < scene_.bodies.pucks.size(); ++puck) add_puck(puck);
+  while (!track_.empty() && track_.back().time >= told_.time) track_.pop_back();
+  sample(told_.time);
+}
+
+void PredictedRink::add_bat(std::uint32_t bat) {
+  const ToldBody& told = told_.bats[bat];
+  ids_[bat].reset();
+  left_at_[bat] = told.position;
+  held_[bat] = told.held;
+  if (!told.is_known) return;
+  physics::BatSpec body = scene_.bodies.bats[bat].body;
+  body.position = inside(told.position, body);
+  body.velocity = told.velocity;
+  ids_[bat] = world_->add(body);
+  set_thrust(bat);
+}
+
+void PredictedRink::add_puck(std::size_t puck) {
+  const ToldBody& told = told_.pucks[puck];
+  std::optional<physics::BodyId>& id = ids_[held_.size() + puck];
+  id.reset();
+  left_at_[held_.size() + puck] = told.position;
+  if (!told.is_in_play || !told.is_known) return;
+  physics::PuckSpec body = scene_.bodies.pucks[puck].body;
+  body.position = inside(told.position, body.radius);
+  body.velocity = told.velocity;
+  id = world_->add(body);
 }
 
 /// Rounding may have put a bat a little into a wall or over the halfway line.
@@ -130,7 +144,9 @@ Vector2 PredictedRink::inside(const Vector2& position, double radius) const {
   return {std::clamp(position.x(), margin, field.length - margin), std::clamp(position.y(), radius, field.width - radius)};
 }
 
-void PredictedRink::set_thrust(std::uint32_t bat) { world_->set_thrust(*ids_[bat], thrust_of(held_[bat], scene_.bodies.bats[bat].thrust)); }
+void PredictedRink::set_thrust(std::uint32_t bat) {
+  if (ids_[bat]) world_->set_thrust(*ids_[bat], thrust_of(held_[bat], scene_.bodies.bats[bat].thrust));
+}
 
 /// One that was due before what was told, but not felt by then, was late: it is felt at the next occasion.
 void PredictedRink::apply_keys_until(double instant) {
@@ -157,7 +173,7 @@ void PredictedRink::sample(double time) {
   for (std::size_t body = 0; body < body_count(); ++body) {
     const auto& id = ids_[body];
     const bool is_in_play = id && world_->is_in_play(*id);
-    sample.positions.push_back(id ? world_->position(*id) : left_at_[body - held_.size()]);
+    sample.positions.push_back(id ? world_->position(*id) : left_at_[body]);
     sample.velocities.push_back(is_in_play ? world_->velocity(*id) : Vector2(0.0, 0.0));
   }
   track_.push_back(std::move(sample));
@@ -212,12 +228,19 @@ double PredictedRink::puck_lag(std::size_t puck, double lag, double dt) const {
 
 /// 0 at the own bat, 1 at the other, linear between: the local perception filter of Sharkey, Ryan and Roberts (1998).
 double PredictedRink::portion_of_delay(const Vector2& puck) const {
-  if (!own_ || held_.size() != 2) return own_ ? 0.0 : 1.0;
+  if (!own_) return 1.0;
+  if (held_.size() != 2 || !is_known(1 - *own_)) return portion_in_crowd(puck);
   const std::uint32_t other = 1 - *own_;
   const double own_x = at(*own_, now_).position.x(), other_x = at(other, now_ - delay_).position.x();
   const double direction = own_x < other_x ? 1.0 : -1.0, span = std::abs(other_x - own_x) - 2.0 * near_bat;
   if (span <= 0.0) return 0.0;
   return std::clamp((direction * (puck.x() - own_x) - near_bat) / span, 0.0, 1.0);
+}
+
+/// Among many bats, or where the other is out of sight: 0 near the own one, on all sides, and 1 where that cannot get soon.
+double PredictedRink::portion_in_crowd(const Vector2& puck) const {
+  const Vector2 beside = ((puck - at(*own_, now_).position).cwiseAbs() - scene_.bodies.bats[*own_].body.half_extent).cwiseMax(0.0);
+  return std::clamp((beside.norm() - near_bat) / (crowd_reach - near_bat), 0.0, 1.0);
 }
 
 }  // namespace rink::game

@@ -18,6 +18,7 @@ struct ToldBody {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   KeysHeld held;            ///< of bats
   bool is_in_play = true;   ///< of pucks: not in a goal
+  bool is_known = true;     ///< otherwise it is shown at `position` and stands in nobody's way: one of a crowd that is too far away to matter
 };
 
 /// All that was true at the simulated instant `time` [s]: of every bat and puck of the scene, in their order there.
@@ -44,6 +45,9 @@ struct ShownBody {
 /// which a key that is pressed now will be felt.
 class PredictedRink {
  public:
+  /// m from the own bat: among more bats than two, pucks that are further away are shown in the others' time.
+  static constexpr double crowd_reach = 0.6;
+
   /// `own_player` plays that bat of the scene; nobody for one who watches.
   PredictedRink(const Scene& scene, std::optional<std::uint32_t> own_player);
 
@@ -85,6 +89,8 @@ class PredictedRink {
   };
 
   void set_up();
+  void add_bat(std::uint32_t bat);
+  void add_puck(std::size_t puck);
   Vector2 inside(const Vector2& position, const physics::BatSpec& bat) const;
   Vector2 inside(const Vector2& position, double radius) const;
   void apply_keys_until(double instant);
@@ -96,6 +102,8 @@ class PredictedRink {
   void look(double now);
   double puck_lag(std::size_t puck, double lag, double dt) const;
   double portion_of_delay(const Vector2& puck) const;
+  double portion_in_crowd(const Vector2& puck) const;
+  bool is_known(std::size_t body) const { return (body < held_.size() ? told_.bats[body] : told_.pucks[body - held_.size()]).is_known; }
   std::size_t body_count() const { return scene_.bodies.bats.size() + scene_.bodies.pucks.size(); }
   double time_of(std::size_t body) const;
   ShownBody shown(std::size_t body) const;
@@ -111,7 +119,7 @@ class PredictedRink {
   std::uint32_t felt_ = 0;                           ///< those before
   std::size_t applied_ = 0;                          ///< of keys_, in the world
   std::deque<Sample> track_;
-  std::vector<Vector2> left_at_;                     ///< by puck: where it was told to be while out of play
+  std::vector<Vector2> left_at_;                     ///< where it was told to be while out of play, or not known
   std::vector<double> lags_;                         ///< by puck [s]
   std::vector<Blend> blends_;
   std::vector<ShownBody> shown_bats_, shown_pucks_;

@@ -105,5 +105,24 @@ TEST(APredictedRink, BearsWhatNoServerShouldTell) {
   EXPECT_EQ(rink.now(), 1.6);
 }
 
+TEST(APredictedRink, HasNothingInTheWayThatIsTooFarAwayToBeKnownAndNoJumpWhenItComesNear) {
+  Game game(match_scene());
+  PredictedRink rink(match_scene(), 0);
+  ToldRink told = told_by(game);
+  told.pucks[0].is_known = told.bats[1].is_known = false;
+  told.pucks[0].velocity = {-50.0, 0.0};
+  rink.hear(told);
+  for (const double now : {0.0, 0.05, 0.1}) rink.advance(now, 0.05);
+  EXPECT_EQ(rink.pucks()[0].position, told.pucks[0].position) << "it would have gone through the own bat";
+  EXPECT_EQ(rink.bats()[0].position, bat_of(game, 0));
+  game.advance(0.1);
+  rink.hear(told_by(game));
+  rink.advance(0.1, 0.05);
+  EXPECT_EQ(rink.puck_corrections().visible_count, 0u);
+  rink.advance(0.3, 0.05);
+  game.advance(0.25);
+  EXPECT_LT((rink.bats()[1].position - bat_of(game, 1)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace rink::game
