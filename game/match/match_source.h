@@ -9,6 +9,7 @@
 #include "game/control/game.h"
 #include "game/control/match_flow.h"
 #include "game/match/interest_seen.h"
+#include "game/match/zones_seen.h"
 #include "game/model/key.h"
 
 namespace rink::game {
@@ -54,11 +55,14 @@ struct MatchSight {
   double since_goal_s = 0.0;               ///< real seconds since then
   std::optional<Team> winner;
   std::optional<Team> own_team;            ///< of a player who has a window of his own: from that end it is seen
+  std::optional<std::uint32_t> own_thing;  ///< the id of the bat of one who plays in a crowd
+  bool can_rematch = true;                 ///< once it is over
   bool wants_rematch = false, other_wants_rematch = false;
   std::string notice;                      ///< one line for the player, or nothing
   std::vector<Noise> noises;               ///< since the last advance
   std::optional<LinkFigures> link;         ///< of a match over a network
   std::optional<InterestSeen> interest;    ///< of a crowd that is inspected
+  std::optional<ZonesSeen> zones;          ///< of a game that peers share
 };
 
 /// A match that is going on. Knows no clock: `now_s` is real time [s] from any origin and never falls.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "game/match/replay_match.h"
+#include "game/view/zones_overlay.h"
 
 namespace rink::view {
 namespace {
@@ -18,6 +19,10 @@ constexpr double click_reach = 8.0;  ///< pixels: so far the mouse may move in a
 /// The own bat, what is asked of in a crowd, or else the puck.
 const Thing* followed_by(const MatchSight& sight, const InterestChoice& interest) {
   if (!sight.own_team && sight.interest) return asked_thing(sight, interest);
+  if (sight.own_thing) {
+    const auto own = std::ranges::find(sight.things, *sight.own_thing, &Thing::id);
+    if (own != sight.things.end()) return &*own;
+  }
   const auto wanted = sight.own_team ? physics::BodyKind::bat : physics::BodyKind::puck;
   const auto found = std::ranges::find_if(sight.things, [&](const Thing& thing) { return thing.kind == wanted && (!sight.own_team || thing.team == *sight.own_team); });
   return found != sight.things.end() ? &*found : nullptr;
@@ -44,6 +49,7 @@ void Application::start(const MatchWish& wish) {
   view_ = {};
   phase_.reset();
   follows_ = is_told_ = false;
+  interest_.is_shown = wish.kind != MatchWish::Kind::peer;  // who plays wants to see the game
 }
 
 void Application::play(const MatchWish& wish) {
@@ -262,7 +268,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   const auto picture_from = [&](Viewpoint viewpoint, const Canvas& part) {
     ViewChoice there = choice;
     there.viewpoint = viewpoint;
-    Picture picture = picture_of(sight, interest_overlay(sight, interest_), there, static_cast<double>(part.width) / part.height);
+    Picture picture = picture_of(sight, sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_), there, static_cast<double>(part.width) / part.height);
     if (is_behind_menu) picture.board.is_there = false;
     if (renderer != nullptr) renderer->draw(picture, part);
     return picture;

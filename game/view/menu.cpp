@@ -203,7 +203,7 @@ void Menu::draw_paused(MenuWish& wish) {
 void Menu::draw_over(MenuWish& wish, const MatchSight& sight) {
   begin_panel("over", 420.0f, 0.74f);
   if (sight.wants_rematch) words_in_the_middle("Waiting for the other");
-  else if (button("Rematch")) wish.kind = MenuWish::Kind::rematch;
+  else if (sight.can_rematch && button("Rematch")) wish.kind = MenuWish::Kind::rematch;
   if (sight.other_wants_rematch) words_in_the_middle("The other wants a rematch");
   if (button("Menu")) wish.kind = MenuWish::Kind::leave;
   ImGui::End();

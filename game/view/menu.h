@@ -14,10 +14,10 @@ namespace rink::view {
 
 /// What to play.
 struct MatchWish {
-  enum class Kind : std::uint8_t { two, bot, host, join, watch, replay, bots };
+  enum class Kind : std::uint8_t { two, bot, host, join, watch, replay, peer, bots };
   Kind kind = Kind::two;
   std::string strength = "club";   ///< of a bot: one of bot_strengths
-  std::string address;             ///< HOST:PORT of join and watch, PORT of host, the file of a replay
+  std::string address{};           ///< HOST:PORT of join and watch, PORT of host, the file of a replay, HOST:PORT of a peer that is there or nothing
 };
 
 inline constexpr std::array<const char*, 3> bot_strengths{"beginner", "club", "expert"};

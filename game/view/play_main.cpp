@@ -18,6 +18,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
 #include "game/net/joined_match.h"
+#include "game/net/peer/playing_peer.h"
 #include "game/view/application.h"
 #include "game/view/host_process.h"
 #include "game/view/play_options.h"
@@ -105,6 +106,31 @@ class HostedMatch final : public game::MatchSource {
   game::JoinedMatch match_;
 };
 
+/// A part of a game that peers share, with what it has to say.
+class SharedMatch final : public game::MatchSource {
+ public:
+  explicit SharedMatch(const game::PlayingPeerSettings& settings) : peer_(settings, now_s) {}
+  void advance(double now_s) override {
+    peer_.advance(now_s);
+    std::cout << peer_.take_words() << std::flush;
+  }
+  const game::MatchSight& sight() const override { return peer_.sight(); }
+  std::uint32_t hand_count() const override { return peer_.hand_count(); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override { peer_.press(hand, key, is_down); }
+  void pause(bool is_wanted) override { peer_.pause(is_wanted); }
+  void rematch() override { peer_.rematch(); }
+
+ private:
+  game::PlayingPeer peer_;
+};
+
+game::PlayingPeerSettings peer_settings(const view::PlayOptions& options) {
+  game::require_writable("--record", options.sharing.record);
+  game::PlayingPeerSettings settings = options.sharing;
+  settings.join = options.peer, settings.listen = options.peer_listen;
+  return settings;
+}
+
 std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view::PlayOptions& options) {
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
@@ -112,6 +138,7 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const view:
   if (wish.kind == Kind::join) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())}, options.key_file);
   if (wish.kind == Kind::watch) return std::make_unique<game::JoinedMatch>(wish.address, game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()), .only_watches = true}, options.key_file);
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
+  if (wish.kind == Kind::peer) return std::make_unique<SharedMatch>(peer_settings(options));
   const game::Scene scene = game::load_scene("match");
   game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text("match")};
   if (wish.kind == Kind::bots) {
@@ -244,7 +271,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
   const Opened opened(*this, nullptr);
   const view::Target target(size.width, size.height, 0);
   const double start_s = now_s();
-  const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty();
+  const bool is_shared = !options_.host.empty() || !options_.join.empty() || !options_.watch.empty() || !options_.peer.empty() || !options_.peer_listen.empty();
   bool is_ended = false;
   for (std::uint64_t frame = 0; !application_->wants_to_quit() && !is_ended && !game::is_interrupted && next_step_ < script_.size(); ++frame) {
     const double now = static_cast<double>(frame) * offscreen_frame_s;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "game/net/flags.h"
+#include "game/net/peer/playing_peer.h"
 #include "game/view/menu.h"
 #include "game/view/picture_of.h"
 
@@ -15,6 +16,8 @@ namespace rink::view {
 struct PlayOptions {
   bool is_two = false;
   std::string bot, host, join, watch, replay, records;
+  std::string peer, peer_listen;
+  game::PlayingPeerSettings sharing;
   std::string camera;
   std::string size = "1280x720";
   bool is_full_screen = false, is_muted = false, shows_figures = false;
@@ -24,6 +27,24 @@ struct PlayOptions {
   std::string script, screenshot;
   double at_s = 0.0;
 };
+
+/// To play among peers, without a server; excludes `others`.
+inline void add_peer_options(CLI::App& app, PlayOptions& options, const std::vector<CLI::Option*>& others) {
+  constexpr const char* group = "Among peers, without a server";
+  game::Terms& terms = options.sharing.terms = {.peer_count = 2, .until = 600.0, .window = 0.02, .balance_windows = 25};
+  const auto peer = app.add_option("--peer", options.peer, "be one of the peers that share a game: HOST:PORT of any that is there already, a rink play or a rink peer")->type_name("HOST:PORT")->group(group);
+  const auto listen = app.add_option("--peer-listen", options.peer_listen, "be the first of them; or, with --peer, where others reach this one (default on this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT")->group(group);
+  for (CLI::Option* one : {peer, listen})
+    for (CLI::Option* other : others) one->excludes(other);
+  const auto first = [&](CLI::Option* option) { option->needs(listen)->excludes(peer)->group(group)->capture_default_str(); };
+  first(app.add_option("--peers", terms.peer_count, "how many there will be, those who only compute or play bots among them; the first one's to say")->check(CLI::Range(2u, game::peers_max)));
+  first(app.add_option("--until", terms.until, "simulated time at which to stop [s]; the first one's to say")->check(game::number_from(1e-6, game::seconds_max)));
+  first(app.add_option("--window", terms.window, "simulated time from one agreement to the next [s]: a key is felt one to two windows later; the first one's to say")->check(game::number_from(1e-3, 1.0)));
+  app.add_option("--scene", options.sharing.scene, "a scene file or the name of a preset, without goals; the same for all peers")->group(group)->capture_default_str();
+  app.add_option("--bats", options.sharing.bats, "scale the crowd to so many bats at constant density; 0: as it is; the same for all peers")->check(CLI::Range(0u, game::bats_max))->group(group)->capture_default_str();
+  app.add_option("--record", options.sharing.record, "write everybody's keys and the final hash to this key log; rink simulate --keys plays the same game")->type_name("FILE")->group(group);
+  app.add_option("--patience", options.sharing.patience_s, "how long another peer may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->group(group)->capture_default_str();
+}
 
 inline void add_options(CLI::App& app, PlayOptions& options) {
   const auto two = app.add_flag("--two", options.is_two, "two players on this keyboard (W A S D and the arrows)");
@@ -35,6 +56,7 @@ inline void add_options(CLI::App& app, PlayOptions& options) {
   for (CLI::Option* one : {two, bot, host, join, watch, replay})
     for (CLI::Option* other : {two, bot, host, join, watch, replay})
       if (one != other) one->excludes(other);
+  add_peer_options(app, options, {two, bot, host, join, watch, replay});
   app.add_option("--key-file", options.key_file, "a shared key: to host for those only who have the same file, and to join or watch such a host")->type_name("FILE")->check(CLI::ExistingFile);
   app.add_option("--records", options.records, "folder for the records of matches (default: rink/matches in $XDG_DATA_HOME or ~/.local/share)")->type_name("FOLDER");
   app.add_option("--camera", options.camera, "where to see it from; C changes it, V gives each of two players their own again")->check(CLI::IsMember({"left", "right", "side", "above"}));
@@ -58,6 +80,7 @@ inline std::optional<MatchWish> wish_of(const PlayOptions& options) {
   if (!options.host.empty()) return MatchWish{.kind = Kind::host, .address = options.host};
   if (!options.join.empty()) return MatchWish{.kind = Kind::join, .address = options.join};
   if (!options.watch.empty()) return MatchWish{.kind = Kind::watch, .address = options.watch};
+  if (!options.peer.empty() || !options.peer_listen.empty()) return MatchWish{.kind = Kind::peer, .address = options.peer};
   if (!options.replay.empty()) return MatchWish{.kind = Kind::replay, .address = options.replay};
   return std::nullopt;
 }

@@ -10,6 +10,9 @@
 #include <sstream>
 #include <thread>
 
+#include "game/control/game.h"
+#include "game/control/key_log.h"
+#include "game/model/scene_file.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "rti/transport/tcp.h"
@@ -45,10 +48,10 @@ class PlayCommand : public ::testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   /// The exit status; what was said on standard error is in `said_`.
-  int play(const std::string& arguments, const std::string& script = {}) {
+  int play(const std::string& arguments, const std::string& script = {}, const std::string& further = {}) {
     std::ofstream(file("script")) << script;
     const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + test::binary_folder() + "/bin/rink-play " + arguments +
-                                (script.empty() ? "" : " --offscreen --size 640x360 --script script") + " 2>err";
+                                (script.empty() ? "" : " --offscreen --size 640x360 --script script") + further + " 2>err";
     const int status = std::system(command.c_str());
     said_ = test::text_of(file("err"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -116,12 +119,20 @@ TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
   EXPECT_EQ(play("--two --bot club"), 2);
   EXPECT_EQ(play("--host 99999"), 2);
   EXPECT_EQ(play("--offscreen --screenshot a.png --at nan"), 2);
+  EXPECT_EQ(play("--peer 127.0.0.1:1 --two"), 2);
+  EXPECT_EQ(play("--peer 127.0.0.1:1 --until 5"), 2) << "the first one's to say";
+  EXPECT_EQ(play("--peers 3"), 2);
 }
 
 TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
   std::ofstream(file("altered.keys")) << "rink-keys 1\nscene match\n";
   const std::pair<const char*, const char*> cases[] = {{"--join 127.0.0.1:1", "Connection refused"},
                                                        {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
+                                                       {"--peer 127.0.0.1:1", "no peer answers at 127.0.0.1:1: refused"},
+                                                       {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
+                                                       {"--peer-listen 0.0.0.0:0", "nobody can connect to 0.0.0.0"},
+                                                       {"--peer-listen 127.0.0.1:0 --scene match", "has goals"},
+                                                       {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
                                                        {"--replay altered.keys", "altered.keys"},
                                                        {"--replay missing.keys", "missing.keys"}};
   for (const auto& [arguments, words] : cases) {
@@ -139,6 +150,27 @@ TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
   EXPECT_EQ(play("--replay kept/match-1.keys", "1 picture a.png\n1.2 tap right\n1.4 tap space\n1.6 picture b.png\n"), 0) << said_;
   EXPECT_EQ(said_, "");
   EXPECT_GT(difference(read_png(file("a.png")), read_png(file("b.png"))).mean, 0.05);
+}
+
+TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
+  const std::string port = std::to_string(40'000 + getpid() % 20'000);
+  std::ofstream(file("second")) << "4.5 down w\n4.9 up w\n9 end\n";
+  const std::string joining = "cd " + folder_.string() + " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; done; " + test::binary_folder() +
+                              "/bin/rink-play --offscreen --size 320x240 --bats 8 --peer 127.0.0.1:" + port + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
+  ASSERT_EQ(std::system(joining.c_str()), 0);
+  ASSERT_EQ(play("--bats 8 --peer-listen 127.0.0.1:" + port + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
+  for (int i = 0; i < 200 && !std::filesystem::exists(file("second_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::string first = test::text_of(file("first_out")), second = test::text_of(file("second_out"));
+  const game::KeyLog log = game::read_key_log(std::filesystem::path(file("first.keys")));
+  EXPECT_EQ(log.events, game::read_key_log(std::filesystem::path(file("second.keys"))).events);
+  EXPECT_EQ(log.events.size(), 4u) << first << second << said_;
+  game::Game one(game::scaled_to_bats(game::load_scene("arena"), 8));
+  for (const game::InputEvent& event : log.events) one.submit(event);
+  one.advance(2.5);
+  char hash[40];
+  std::snprintf(hash, sizeof hash, "hash %016llx, 4 keys", static_cast<unsigned long long>(one.hash()));
+  EXPECT_THAT(first, HasSubstr(hash));
+  EXPECT_THAT(second, HasSubstr(hash));
 }
 
 class PlayCommandLong : public PlayCommand {};

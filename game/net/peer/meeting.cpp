@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "game/net/interrupt.h"
-
 namespace rink::game {
 
 namespace {
@@ -50,8 +48,9 @@ void Meeting::attend(double wait_s) {
   for (const auto& [connection, link] : links_)
     if (link.role == Role::stranger && now_s_() > link.since_s + stranger_patience_s) idle.push_back(connection);
   for (const rti::ConnectionId connection : idle) dismiss(connection);
-  if (is_interrupted && !interrupted_s_) interrupted_s_ = now_s_();
-  if (is_interrupted && (!may_lose_ || now_s_() > *interrupted_s_ + leaving_s_max)) throw Parting(ExitStatus::interrupted, "interrupted");
+  const bool must_end = settings_.must_end();
+  if (must_end && !interrupted_s_) interrupted_s_ = now_s_();
+  if (must_end && (!may_lose_ || now_s_() > *interrupted_s_ + leaving_s_max)) throw Parting(ExitStatus::interrupted, "interrupted");
   if (trouble_) throw Parting(*trouble_);
 }
 
@@ -198,7 +197,7 @@ void Meeting::part(peer::PeerNumber peer, bool is_lost) {
 }
 
 void Meeting::rest_until(double time_s) {
-  for (double left_s = time_s - now_s_(); left_s > 0.0 && !is_interrupted; left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
+  for (double left_s = time_s - now_s_(); left_s > 0.0 && !settings_.must_end(); left_s = time_s - now_s_()) attend(std::min(left_s, wait_s_max));
 }
 
 void Meeting::leave(const Farewell& farewell) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "game/net/exit_status.h"
+#include "game/net/interrupt.h"
 #include "game/net/peer/frames.h"
 #include "game/net/peer/greetings.h"
 #include "game/peer/protocol.h"
@@ -33,6 +35,7 @@ struct MeetingSettings {
   Luggage luggage;
   std::uint64_t session = 0;  ///< of a first peer: a number that nobody guesses
   double patience_s = 30.0;   ///< with one whose answer is due
+  std::function<bool()> must_end = [] { return is_interrupted != 0; };  ///< the user wants this peer's part to be over
 };
 
 /// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. From `begin` on, where parts are mirrored,

@@ -20,6 +20,7 @@
 #include "game/net/flags.h"
 #include "game/net/interrupt.h"
 #include "game/net/peer/crowd.h"
+#include "game/net/peer/listening_place.h"
 #include "game/net/peer/meeting.h"
 #include "game/net/peer/rank_mail.h"
 #include "game/net/peer/shared_game.h"
@@ -67,20 +68,6 @@ game::SharedGame game_of(const Options& options) {
   return game::SharedGame(scene, recorded);
 }
 
-/// Where this peer is to listen. Others are told the address, so it must be one that they can use.
-game::Place place_of(const Options& options) {
-  const auto is_here = [](const std::string& address) { return address.starts_with("127.") || address == "::1" || address == "localhost"; };
-  if (options.listen.empty()) {
-    if (options.join.empty()) throw std::invalid_argument("--listen ADDRESS:PORT is missing, for the first peer; all others give --join HOST:PORT");
-    if (options.transport == "tcp" && !is_here(game::address_and_port("--join", options.join).first))
-      throw std::invalid_argument("--listen ADDRESS:0 is missing: with peers on other machines, the address at which they reach this one");
-    return {"127.0.0.1", 0};
-  }
-  const auto [address, port] = game::address_and_port("--listen", options.listen, 0);
-  if (address == "0.0.0.0" || address == "::") throw std::invalid_argument("--listen: others are told this address, and nobody can connect to " + address + ": expected one of this machine's own");
-  return {address, port};
-}
-
 /// Of a part that was played among those who met, by whichever transport.
 template <class Meeting>
 Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32_t bots, double playing_s) {
@@ -121,15 +108,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
 
 void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part, const game::Terms& terms) {
   if (options.record.empty()) return;
-  game::KeyLog log = game::key_log_for(shared.scene());
-  log.scene_text = game::scene_text(options.scene);
-  log.until = terms.until;
-  log.hash = part.hash;
-  log.events = part.keys;
-  // Whoever has the scene has these.
-  for (const game::InputEvent& scripted : shared.scene().keys)
-    if (const auto found = std::find(log.events.begin(), log.events.end(), scripted); found != log.events.end()) log.events.erase(found);
-  game::write_key_log(std::filesystem::path(options.record), log);
+  game::write_key_log(std::filesystem::path(options.record), shared.record_of(part, game::scene_text(options.scene), terms.until));
 }
 
 /// From the first word to the last; whoever is connected is told why it ends early.
@@ -235,7 +214,7 @@ game::ExitStatus run(const Options& options) {
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
   if (options.bots > 0 && shared.has_keys()) throw std::invalid_argument("--bots: the scene or the key log has keys already, and nobody can play beside them");
-  game::Place place = place_of(options);
+  game::Place place = game::listening_place(options.listen, options.join, options.transport == "tcp");
   rti::SocketTransport sockets(options.transport);
   place.port = sockets.listen(place.address, place.port);
   std::printf("listening on %s\n", place.text().c_str());

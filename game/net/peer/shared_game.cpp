@@ -112,7 +112,8 @@ std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
       if (player >= is_taken.size() || std::exchange(is_taken[player], std::uint8_t{1}) != 0)
         throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " + std::to_string(player) + ", which is taken or not there");
       const auto k = static_cast<std::uint32_t>(player);
-      seats.push_back({.bat = start_.bat(k)->index, .peer = number, .period = decision_period, .phase = decision_phase(k), .puck_count = guests[number].puck_count});
+      const bool is_hand = player < std::uint64_t{guests[number].first_bat} + guests[number].hand_count;
+      seats.push_back({.bat = start_.bat(k)->index, .peer = number, .period = is_hand ? 0.0 : decision_period, .phase = decision_phase(k), .puck_count = guests[number].puck_count});
     }
   return seats;
 }
@@ -145,12 +146,15 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.keys = thrusts();
   settings.seats = seats(guests);
   peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
-  Crowd crowd(scene_, start_, manner.players, scene_.seed, guests[number].first_bat, guests[number].bat_count, terms.until);
+  const Guest& self = guests[number];
+  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, terms.until);
   Membership membership(session, manner);
   while (!session.is_over()) {
     if (manner.before_window) manner.before_window(session.peer().now());
     if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
+    if (manner.onlooker != nullptr) manner.onlooker->before_window(session);
     session.advance();
+    if (manner.onlooker != nullptr) manner.onlooker->after_window(session);
     membership.tell();
     crowd.act(session);
   }
@@ -165,6 +169,18 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(), part.halo = session.peer().halo();
   part.presses = crowd.presses();
   return part;
+}
+
+KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_text, double until) const {
+  KeyLog log = key_log_for(scene_);
+  log.scene_text = scene_text;
+  log.until = until;
+  log.hash = part.hash;
+  log.events = part.keys;
+  // Whoever has the scene has these.
+  for (const InputEvent& scripted : scene_.keys)
+    if (const auto found = std::find(log.events.begin(), log.events.end(), scripted); found != log.events.end()) log.events.erase(found);
+  return log;
 }
 
 /// Everybody has told everybody what it has, and what its players did.

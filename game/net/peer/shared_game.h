@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/control/key_log.h"
 #include "game/net/peer/greetings.h"
 #include "game/peer/session.h"
 
@@ -29,12 +30,23 @@ struct PlayedPart {
   std::vector<InputEvent> keys;         ///< of all live players, as their owners stamped them, and all recorded ones; ordered by time, then player
 };
 
+/// Who looks on while a peer plays, and may press keys of its bats.
+class Onlooker {
+ public:
+  virtual ~Onlooker() = default;
+  /// The time has come to play the window that is prepared; what is pressed now goes with its claims.
+  virtual void before_window(peer::Session&) {}
+  /// A window is final, and the next one prepared.
+  virtual void after_window(const peer::Session&) {}
+};
+
 /// How a peer plays: with which bots, and what it does before it plays a window from the simulated time that it is given, such as wait for the clock.
 struct Manner {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
   std::function<void(double)> before_window;
   std::function<bool()> wants_to_leave;
   std::function<void(const std::string&)> tell;  ///< the user, of losses
+  Onlooker* onlooker = nullptr;                  ///< or nobody
 };
 
 /// The same for all who are given the same scene and keys.
@@ -51,6 +63,9 @@ class SharedGame {
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
   /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, peer::Halt, and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
+
+  /// Everybody's keys as a log of the game that one engine plays likewise; `scene_text` is the scene's file, `until` where it ended [s].
+  KeyLog record_of(const PlayedPart& part, const std::string& scene_text, double until) const;
 
   /// What playing it is made of, for those who do so step by step: the game at its start; a peer that owns its part by `division` and knows all keys, whose first window ends with
   /// the first `window` [s]; and Game::hash() of a world that has come to `until` [s] under the keys that all know.

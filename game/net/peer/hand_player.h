@@ -1,0 +1,48 @@
+// A person's side in the peer's own thread: keys out before each window, what is known in after it.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/net/peer/hand.h"
+#include "game/net/peer/shared_game.h"
+
+namespace rink::game {
+
+class HandPlayer final : public Onlooker {
+ public:
+  /// Plays bat `player` of `game`. Both must outlive it, as `hand` must.
+  HandPlayer(const SharedGame& game, std::uint32_t player, Hand& hand);
+
+  void before_window(peer::Session& session) override;
+  void after_window(const peer::Session& session) override;
+  std::uint64_t presses() const { return presses_; }
+  /// By the peer, for the window's figures.
+  std::function<std::uint64_t()> bytes_sent = [] { return std::uint64_t{0}; };
+
+ private:
+  /// A key on its way: it went with the claims of window `window`.
+  struct Sent {
+    std::uint64_t window;
+    double stamp, wanted;  ///< s
+    Key key;
+    bool is_down;
+  };
+  void count_felt(const peer::Session& session);
+  PeerSight sight_of(const peer::Session& session) const;
+  void add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies, KnownBody::Source source, PeerSight& sight) const;
+
+  const SharedGame& game_;
+  Hand& hand_;
+  BatController pressed_, felt_;    ///< all that was pressed, and what the bat has felt of it
+  peer::Glimpse glimpse_;           ///< the newest
+  std::vector<HandPress> waiting_;  ///< until somebody shows the bat
+  std::deque<Sent> sent_;
+  std::uint64_t presses_ = 0;
+  double since_ = 0.0;
+};
+
+}  // namespace rink::game

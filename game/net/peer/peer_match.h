@@ -1,0 +1,88 @@
+// A game that peers share, seen and played in a window of one of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/match/match_source.h"
+#include "game/match/news_delay.h"
+#include "game/match/noises.h"
+#include "game/match/predicted_rink.h"
+#include "game/match/server_clock.h"
+#include "game/match/sight.h"
+#include "game/net/peer/hand.h"
+#include "game/net/peer/shared_game.h"
+
+namespace rink::game {
+
+/// Shows what the peer on the other side of `hand` has and is told, and the own bat at the instant at which a key that is pressed now is felt (docs/play.md, "Among peers"). Never
+/// waits for a window, and reads no clock.
+class PeerMatch final : public MatchSource {
+ public:
+  /// Both must outlive it.
+  PeerMatch(const SharedGame& game, Hand& hand);
+
+  void advance(double now_s) override;
+  const MatchSight& sight() const override { return sight_; }
+  std::uint32_t hand_count() const override { return 1; }
+  void press(std::uint32_t hand, Key key, bool is_down) override;
+  /// Others play on.
+  void pause(bool) override {}
+  void rematch() override {}
+
+  /// Null before the first window's end.
+  const PredictedRink* prediction() const { return rink_ ? &*rink_ : nullptr; }
+
+ private:
+  static constexpr std::uint32_t nobody = 0xffffffffu;
+  /// What a body of the scene is, and what was told of it last.
+  struct Known {
+    physics::BodyKind kind = physics::BodyKind::post;
+    std::uint32_t number = 0;             ///< among its kind
+    std::uint64_t window = 0;             ///< of the news that told of it last; 0: none yet
+    bool is_in_play = true, is_near = false;
+    double near_since = 0.0;              ///< s: since then it is foretold
+    physics::Motion motion, before;       ///< the newest, and that of the window before
+    Vector2 at(double instant) const;
+  };
+  struct PressedKey {
+    Key key;
+    bool is_down;
+  };
+
+  void hear(PeerSight news);
+  ToldRink told();
+  void tell(const KnownBody& body, ToldRink& told);
+  void predict(double now_s);
+  void press_keys(double instant);
+  void move_delay(double dt);
+  void show(double now_s);
+  void show_things();
+  void show_thing(std::uint32_t body);
+  void show_stage(double now_s);
+  void show_link(double now_s);
+  bool is_playing() const { return stage_.step == PeerStage::Step::playing; }
+
+  const SharedGame& game_;
+  Hand& hand_;
+  PeerStage stage_;
+  ServerClock clock_;
+  NewsDelay news_delay_;
+  std::optional<PredictedRink> rink_;
+  std::optional<PeerSight> news_;
+  std::vector<Known> known_;       ///< by body
+  std::vector<Thing> all_things_;  ///< by body
+  std::vector<PressedKey> pressed_;
+  MatchSight sight_;
+  NoiseDetector noises_;
+  GoalWatch goals_;
+  double now_s_ = 0.0, delay_ = 0.0;
+  double heard_s_ = 0.0;           ///< real time of the newest news
+  double stage_s_ = 0.0, notice_s_ = -1e9;
+  std::uint32_t notice_count_ = 0;
+  double counted_s_ = 0.0, bytes_per_s_ = 0.0;
+  std::uint64_t counted_bytes_ = 0;
+};
+
+}  // namespace rink::game

@@ -1,0 +1,113 @@
+// The part of a peer from its first word to its last, told to the window in stages.
+#include "game/net/peer/playing_peer.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <random>
+
+#include "game/control/key_log.h"
+#include "game/model/scene_file.h"
+#include "game/net/address.h"
+#include "game/net/interrupt.h"
+#include "game/net/peer/hand_player.h"
+#include "game/net/peer/listening_place.h"
+
+namespace rink::game {
+
+namespace {
+
+Scene scene_of(const PlayingPeerSettings& settings) {
+  Scene scene = load_scene(settings.scene);
+  return settings.bats > 0 ? scaled_to_bats(std::move(scene), settings.bats) : scene;
+}
+
+std::uint64_t unguessable_number() {
+  std::random_device device;
+  const std::uint64_t upper = device();
+  return upper << 32 | device();
+}
+
+}  // namespace
+
+PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)()) : settings_(settings), now_s_(now_s), game_(scene_of(settings), {}), match_(game_, hand_) {
+  if (game_.bat_count() == 0) throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
+  if (game_.has_keys()) throw SceneError("scene '" + settings.scene + "' has keys already, and nobody can play beside them");
+  Place place = listening_place(settings.listen, settings.join, true, {.listen = "--peer-listen", .join = "--peer"});
+  place.port = sockets_.listen(place.address, place.port);
+  hand_.say("listening on " + place.text() + "\n");
+  const Guest self{.place = place, .bat_count = 1, .hand_count = 1};
+  const auto must_end = [this] { return is_interrupted != 0 || hand_.wants_to_leave(); };
+  meeting_ = std::make_unique<Meeting>(
+      sockets_,
+      MeetingSettings{.self = self, .bats = game_.bat_count(), .luggage = game_.luggage(), .session = unguessable_number(), .patience_s = settings.patience_s, .must_end = must_end}, now_s);
+  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty() ? "this peer listens on " + place.text() + "; there will be " + std::to_string(settings.terms.peer_count) : "asking the peer at " + settings.join);
+  thread_ = std::thread([this] { run(); });
+}
+
+PlayingPeer::~PlayingPeer() {
+  hand_.leave();
+  thread_.join();
+}
+
+void PlayingPeer::run() {
+  const auto end_badly = [this](FarewellKind kind, const std::string& why) {
+    meeting_->leave({kind, why});
+    hand_.set_stage(PeerStage::Step::lost, why);
+  };
+  try {
+    share();
+  } catch (const Parting& parting) {
+    end_badly(parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted : FarewellKind::trouble, parting.what());
+  } catch (const std::exception& error) {  // peer::Halt, peer::ProtocolError, a transport's
+    end_badly(FarewellKind::trouble, error.what());
+  }
+}
+
+void PlayingPeer::share() {
+  if (settings_.join.empty()) {
+    meeting_->found(settings_.terms);
+  } else {
+    const auto [address, port] = address_and_port("--peer", settings_.join);
+    meeting_->join({address, port});
+    hand_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(meeting_->number()) + " of " + std::to_string(meeting_->terms().peer_count));
+  }
+  meeting_->gather();
+  const Terms& terms = meeting_->terms();
+  const Guest& self = meeting_->guests()[meeting_->number()];
+  hand_.set_player(self.first_bat);
+  hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
+  meeting_->begin();
+  const double start_s = now_s_() + settings_.countdown_s;
+  meeting_->rest_until(start_s);
+  hand_.set_stage(PeerStage::Step::playing, "");
+  HandPlayer player(game_, self.first_bat, hand_);
+  player.bytes_sent = [this] { return meeting_->bytes_sent(); };
+  Manner manner;
+  manner.before_window = [&](double time) { meeting_->rest_until(start_s + time); };
+  manner.wants_to_leave = [this] { return hand_.wants_to_leave() || is_interrupted != 0; };
+  manner.tell = [this](const std::string& what) { hand_.notice(what); };
+  manner.onlooker = &player;
+  const PlayedPart part = game_.play(terms, meeting_->guests(), meeting_->number(), *meeting_, manner);
+  meeting_->leave({});
+  end(part);
+}
+
+void PlayingPeer::end(const PlayedPart& part) {
+  if (part.has_left) return hand_.set_stage(PeerStage::Step::over, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
+  char words[160];
+  std::snprintf(words, sizeof words, "The game is over at %g s: hash %016" PRIx64 ", %zu keys", part.time, part.hash, part.keys.size());
+  std::string trouble;
+  try {
+    write_record(part);
+  } catch (const std::exception& error) {
+    trouble = std::string("; ") + error.what();
+  }
+  hand_.say(words + trouble + "\n");
+  hand_.set_stage(PeerStage::Step::over, words + trouble);
+}
+
+void PlayingPeer::write_record(const PlayedPart& part) {
+  if (!settings_.record.empty()) write_key_log(std::filesystem::path(settings_.record), game_.record_of(part, scene_text(settings_.scene), meeting_->terms().until));
+}
+
+}  // namespace rink::game

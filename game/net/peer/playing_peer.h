@@ -1,0 +1,62 @@
+// A whole peer with a person at it: connections, windows and record in a thread of its own, and beside it what its window shows.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "game/net/peer/greetings.h"
+#include "game/net/peer/hand.h"
+#include "game/net/peer/meeting.h"
+#include "game/net/peer/peer_match.h"
+#include "game/net/peer/shared_game.h"
+#include "rti/transport/socket_transport.h"
+
+namespace rink::game {
+
+struct PlayingPeerSettings {
+  std::string scene = "arena";  ///< see load_scene; the same for all peers
+  std::uint32_t bats = 0;       ///< scaled to so many, if not 0
+  std::string join;             ///< HOST:PORT of any peer that is there; empty: become the first one
+  std::string listen;           ///< ADDRESS:PORT where others reach this one; may be empty if there is `join`, of peers on this machine
+  Terms terms;                  ///< a first peer's to say
+  double patience_s = 10.0;     ///< with peers that say nothing
+  double countdown_s = 3.0;
+  std::string record;           ///< everybody's keys go to this file in the end; empty: nowhere
+};
+
+class PlayingPeer final : public MatchSource {
+ public:
+  /// `now_s` is the clock by which windows are played. What goes wrong with others later shows as a match that is lost. Throws std::exception with what is wrong with the settings.
+  PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)());
+  /// Hands over what it owns, which takes two windows, or a few seconds if nobody answers.
+  ~PlayingPeer() override;
+
+  void advance(double now_s) override { match_.advance(now_s); }
+  const MatchSight& sight() const override { return match_.sight(); }
+  std::uint32_t hand_count() const override { return match_.hand_count(); }
+  void press(std::uint32_t hand, Key key, bool is_down) override { match_.press(hand, key, is_down); }
+  void pause(bool is_wanted) override { match_.pause(is_wanted); }
+  void rematch() override { match_.rematch(); }
+
+  /// What is to be told on the standard output: where it listens, and how it ended.
+  std::string take_words() { return hand_.take_words(); }
+
+ private:
+  void run();
+  void share();
+  void end(const PlayedPart& part);
+  void write_record(const PlayedPart& part);
+
+  PlayingPeerSettings settings_;
+  double (*now_s_)();
+  SharedGame game_;
+  Hand hand_;
+  PeerMatch match_;
+  rti::SocketTransport sockets_{"tcp"};
+  std::unique_ptr<Meeting> meeting_;
+  std::thread thread_;
+};
+
+}  // namespace rink::game
