@@ -12,6 +12,7 @@ bool RegionHistory::set(std::uint32_t id, const Region& region) {
   Motion& motion = motions_[id];
   if (motion.now == region) return false;
   list(id);
+  if (absent_count_ != 0 && is_nowhere(motion.now)) --absent_count_;
   motion.now = region;
   return true;
 }
@@ -32,6 +33,7 @@ void RegionHistory::grow(std::size_t count) {
   const std::size_t old_count = motions_.size(), old_words = listed_.size();
   motions_.resize(count);
   std::fill(motions_.data() + old_count, motions_.data() + count, Motion{});
+  absent_count_ += count - old_count;
   listed_.resize((count + 63) / 64);
   std::fill(listed_.data() + old_words, listed_.data() + listed_.size(), 0);
 }
@@ -39,6 +41,7 @@ void RegionHistory::grow(std::size_t count) {
 bool RegionHistory::remove(std::uint32_t id) {
   if (id >= motions_.size() || is_nowhere(motions_[id].now)) return false;
   motions_[id] = Motion{};
+  ++absent_count_;
   has_removed_ = true;
   return true;
 }

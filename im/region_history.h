@@ -45,6 +45,8 @@ class RegionHistory {
 
   /// Ids run from 0 to size() - 1; some of them may be nowhere.
   std::size_t size() const { return motions_.size(); }
+  /// How many are somewhere.
+  std::size_t present_count() const { return motions_.size() - absent_count_; }
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
   bool has_moved(std::uint32_t id) const { return is_listed(id); }
 
@@ -72,6 +74,7 @@ class RegionHistory {
   Buffer<std::uint32_t> moved_;
   Buffer<std::uint32_t> settled_;   // moved at the match before: their `before` is out of date unless they move again
   bool has_removed_ = false;
+  std::size_t absent_count_ = 0;  // nearly always there are none, and then no new region is asked whether it is that of a newcomer
 };
 
 }  // namespace rink::im

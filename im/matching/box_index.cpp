@@ -2,12 +2,23 @@
 #include "im/matching/box_index.h"
 
 #include <cassert>
+#include <cmath>
+#include <utility>
 
 namespace rink::im {
 namespace {
 
 /// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too many rows. Columns are cheap: the cells of a row lie one after the other.
 constexpr CellShape shape{32.0, 6.0, 2.0};
+
+/// Boxes are followed until they may be this part of a column from their cells: farther, questions look at so many more that binning anew is cheaper.
+constexpr float drift_max = 0.25f;
+/// Nor do they keep cells when their hulls have become so many times as wide.
+constexpr float growth_max = 1.25f;
+/// The rounding of a drift is bounded for as many.
+constexpr std::uint32_t follow_max = 100;
+/// How many motions ahead memory is asked for.
+constexpr std::size_t follow_ahead = 16;
 
 }  // namespace
 
@@ -69,6 +80,42 @@ void BoxIndex::build() {
   levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_, shape);
   count_cells();
   sort();
+  follow_count_ = 0;
+}
+
+bool BoxIndex::follow(const RegionHistory& regions) {
+  assert(is_moving_);
+  if (++follow_count_ > follow_max) return false;
+  std::swap(before_, now_);
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    CellLevel& level = levels_[i];
+    const CellLevel built = level;
+    level.x.widest = level.y.widest = 0.0f;
+    level.has_newcomers = false;
+    follow(regions, level, starts_[built.first_cell], starts_[built.first_cell + built.cell_count()]);
+    const auto is_worth_it = [](const CellAxis& axis, const CellAxis& before) { return axis.drift * axis.cells_per_metre <= drift_max && axis.widest <= growth_max * before.widest; };
+    if (!is_worth_it(level.x, built.x) || !is_worth_it(level.y, built.y)) return false;
+  }
+  return true;
+}
+
+/// Takes up the boxes at places `first` to `end`, those of `level`.
+void BoxIndex::follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end) {
+  float widest_x = 0.0f, widest_y = 0.0f, shift_x = 0.0f, shift_y = 0.0f;
+  const Projection projection = projection_;
+  bool is_exact = is_exact_;
+  for (std::size_t i = first; i < end; ++i) {
+    if (i + follow_ahead < end) regions.prefetch(ids_[i + follow_ahead]);
+    const Region& region = regions[ids_[i]].now;
+    const FloatBox before = before_[i], now = projection(region), hull = hull_of(before, now);
+    if (is_exact) is_exact = projection.is_exact(region, now);
+    now_.set(i, now);
+    widest_x = std::max(widest_x, hull.high_x - hull.low_x), widest_y = std::max(widest_y, hull.high_y - hull.low_y);
+    shift_x = std::max(shift_x, std::abs(now.low_x - before.low_x)), shift_y = std::max(shift_y, std::abs(now.low_y - before.low_y));
+  }
+  is_exact_ = is_exact;
+  level.x.widest = widest_x, level.y.widest = widest_y;
+  level.x.drift += shift_x, level.y.drift += shift_y;
 }
 
 std::size_t BoxIndex::collect(const CellLevel& level, const CellQuery& query, Buffer<Stretch>& stretches) const {

@@ -11,6 +11,7 @@
 #include "im/matching/projection.h"
 #include "im/matching/scan.h"
 #include "im/matching/size_levels.h"
+#include "im/region_history.h"
 
 namespace rink::im {
 
@@ -25,6 +26,9 @@ class BoxIndex {
   void stage(std::uint32_t id, const Motion& motion);
   /// Bins what was staged by counting sort: linear in boxes and cells.
   void build();
+  /// The next places of all moving boxes that were built: each stays in the cell that it has, questions reach as much farther as boxes have come since. `regions` are where they
+  /// are now, all of them and at the last match in the places that are known here. False, and then it must be built anew, if they have come or grown too far for that to pay.
+  bool follow(const RegionHistory& regions);
 
   std::size_t size() const { return ids_.size(); }
   /// In the order of their cells.
@@ -48,6 +52,7 @@ class BoxIndex {
   void count_cells(const LevelOf& level_of);
   void sort();
   FloatBox hull(std::size_t staged) const;
+  void follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end);
   std::size_t collect(const CellLevel& level, const CellQuery& query, Buffer<Stretch>& stretches) const;
 
   Region world_;
@@ -55,6 +60,7 @@ class BoxIndex {
   bool is_moving_ = false, is_exact_ = true;
   SizeLevels sizes_;
   CellLevels levels_;
+  std::uint32_t follow_count_ = 0;  // since it was built
   // As staged; the buffers have room for what was announced.
   std::size_t staged_count_ = 0;
   Buffer<FloatBox> staged_before_, staged_now_;

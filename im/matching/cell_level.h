@@ -22,22 +22,26 @@ struct CellAxis {
   float cells_per_metre = 0.0f;
   std::int32_t last = 0;
   float widest = 0.0f;  ///< longest side of the boxes in the cells [m]
+  float drift = 0.0f;   ///< how far a box may be from where it was when it got its cell [m]
 
   /// Never decreases with `coordinate`, rounding included: all that is relied on. Not a number (nothing times infinity) is before the first.
   std::int32_t cell(float coordinate) const {
     return static_cast<std::int32_t>(std::min(std::max(0.0f, coordinate * cells_per_metre), static_cast<float>(last)));
   }
   /// Cells whose boxes may touch [low, high].
-  CellRange touched(float low, float high) const { return {cell(low - widest - margin(low)), cell(high)}; }
+  CellRange touched(float low, float high) const { return {cell(low - widest - drift - margin(low)), cell(high + drift + drift_margin(high))}; }
   /// Cells whose boxes begin after `low` and end before `high`.
   CellRange within(float low, float high) const {
-    const float latest = high - widest - margin(high);
-    return low < latest ? CellRange{cell(low) + 1, cell(latest) - 1} : CellRange{0, -1};
+    const float earliest = low + drift + drift_margin(low), latest = high - widest - drift - margin(high);
+    return earliest < latest ? CellRange{cell(earliest) + 1, cell(latest) - 1} : CellRange{0, -1};
   }
 
  private:
   /// Bounds the rounding of a side and of a difference with it: an edge is at most `widest` (1 + e) from the other, and the difference errs by e of its size, e = 2^-24.
-  float margin(float coordinate) const { return (std::abs(coordinate) + widest) * 0x1p-22f; }
+  /// A drift is a sum of at most a hundred differences, each rounded, and stays below a cell, so that it errs by less than 2^-16 of itself.
+  float margin(float coordinate) const { return (std::abs(coordinate) + widest + drift) * 0x1p-22f + drift * 0x1p-16f; }
+  /// Nothing where nobody drifted: then cells are exact.
+  float drift_margin(float coordinate) const { return drift > 0.0f ? margin(coordinate) : 0.0f; }
 };
 
 /// A grid over the world, row after row.
@@ -71,6 +75,7 @@ class CellLevels {
 
   std::size_t size() const { return levels_.size(); }
   std::uint32_t cell_count() const { return levels_.back().first_cell + levels_.back().cell_count(); }
+  CellLevel& operator[](std::size_t i) { return levels_[i]; }
   CellLevel& of(const SizeLevels& sizes, const FloatBox& box) { return levels_[levels_.size() == 1 ? 0 : sizes.level(longer_side(box))]; }
   /// Of one level.
   void replace_only(const CellLevel& level) { levels_[0] = level; }

@@ -60,9 +60,10 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities, std::spa
 }
 
 /// Stages all of `side`, in the order in which they lay in space at the last time if that is known: then sorting them moves little.
-void ChangeJoin::stage(const Side& side, BoxIndex& index) {
-  index.begin(world_, side.regions.size(), true);
+void ChangeJoin::stage(const Side& side) {
   Standing& standing = side.standing;
+  BoxIndex& index = standing.swept;
+  index.begin(world_, side.regions.size(), true);
   if (!standing.is_ordered) {
     for (std::uint32_t id = 0; id < side.regions.size(); ++id)
       if (!is_nowhere(side.regions[id].now)) index.stage(id, side.regions[id]);
@@ -77,34 +78,34 @@ void ChangeJoin::stage(const Side& side, BoxIndex& index) {
     if (is_nowhere(side.regions[id].before)) index.stage(id, side.regions[id]);
 }
 
-void ChangeJoin::build(const Side& side, BoxIndex& index) {
-  index.build();
-  side.standing.order.resize(index.size());
-  std::copy(index.ids().begin(), index.ids().end(), side.standing.order.data());
-  side.standing.is_ordered = true;
+/// Has the index hold everyone of `side`: those whom it held at the last match stay in their cells while they are near.
+void ChangeJoin::place(const Side& side) {
+  Standing& standing = side.standing;
+  if (standing.is_placed && standing.swept.size() == side.regions.present_count() && standing.swept.follow(side.regions)) return;
+  stage(side);
+  standing.swept.build();
+  const std::span<const std::uint32_t> ids = standing.swept.ids();
+  standing.order.resize(ids.size());
+  std::copy(ids.begin(), ids.end(), standing.order.data());
+  standing.is_ordered = standing.is_placed = true;
 }
 
 void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
   Worker* const worker = entities.regions.size() + subscribers.regions.size() < shared_regions_min ? nullptr : worker_;
   const bool is_ordered = subscribers.regions.size() > unordered_subscriber_max;
   join_.share_with(worker);
-  const auto index_entities = [&] {
-    stage(entities, swept_entities_);
-    build(entities, swept_entities_);
-  };
+  const auto index_entities = [&] { place(entities); };
   const auto index_subscribers = [&] {
     probes_.begin(world_);
-    if (is_ordered) {
-      stage(subscribers, swept_subscribers_);
-      return build(subscribers, swept_subscribers_);
-    }
+    subscribers.standing.is_placed = subscribers.standing.is_placed && is_ordered;
+    if (is_ordered) return place(subscribers);
     for (std::uint32_t id = 0; id < subscribers.regions.size(); ++id)
       if (!is_nowhere(subscribers.regions[id].now)) probes_.add(id, subscribers.regions[id]);
   };
   // Few subscribers are listed before anybody has woken up.
   run_both(is_ordered ? worker : nullptr, index_entities, index_subscribers);
-  if (is_ordered) join(swept_entities_, swept_subscribers_, entities, subscribers);
-  else join(swept_entities_, probes_, entities, subscribers);
+  if (is_ordered) join(entities.standing.swept, subscribers.standing.swept, entities, subscribers);
+  else join(entities.standing.swept, probes_, entities, subscribers);
   changes_.add_by_subscriber(join_);
   for (const Side* side : {&entities, &subscribers}) side->standing.is_live = side->standing.is_live && side->moved.empty();
 }
@@ -141,13 +142,15 @@ void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
     changes_.add_by_subscriber(join_, entities.regions);
   }
   if (!entities.moved.empty() && !subscribers.moved.empty()) {
-    swept_entities_.begin(world_, entities.moved.size(), true);
-    for (const std::uint32_t id : entities.moved) swept_entities_.stage(id, entities.regions[id]);
-    swept_entities_.build();
-    join(swept_entities_, probes_, entities, subscribers);  // the probes are the moved subscribers already
+    BoxIndex& movers = entities.standing.swept;
+    movers.begin(world_, entities.moved.size(), true);
+    for (const std::uint32_t id : entities.moved) movers.stage(id, entities.regions[id]);
+    movers.build();
+    join(movers, probes_, entities, subscribers);  // the probes are the moved subscribers already
     changes_.add_by_subscriber(join_);
   }
   for (const Side* side : {&entities, &subscribers}) {
+    side->standing.is_placed = false;
     if (side->standing.is_live) side->standing.live.put(side->moved, side->regions);
     const auto is_newcomer = [&](std::uint32_t id) { return is_nowhere(side->regions[id].before); };
     side->standing.is_ordered = side->standing.is_ordered && std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
@@ -155,7 +158,7 @@ void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
 }
 
 std::size_t ChangeJoin::bytes() const {
-  return entities_.bytes() + subscribers_.bytes() + swept_entities_.bytes() + swept_subscribers_.bytes() + probes_.bytes() + join_.bytes() + changes_.bytes();
+  return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() + changes_.bytes();
 }
 
 }  // namespace rink::im

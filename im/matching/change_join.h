@@ -26,8 +26,8 @@ class ChangeJoin {
   /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must outlive this. Changes and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
-  void forget_entity(std::uint32_t entity) { entities_.live.remove(entity); }
-  void forget_subscriber(std::uint32_t subscriber) { subscribers_.live.remove(subscriber); }
+  void forget_entity(std::uint32_t entity) { entities_.forget(entity); }
+  void forget_subscriber(std::uint32_t subscriber) { subscribers_.forget(subscriber); }
 
   std::uint64_t pairs_tested() const { return pairs_tested_; }
   std::size_t bytes() const;
@@ -39,7 +39,13 @@ class ChangeJoin {
     bool is_live = false;         // the index agrees with where all were before
     Buffer<std::uint32_t> order;  // of ids in space when everyone was last joined
     bool is_ordered = false;      // all who were somewhere before are in it
-    std::size_t bytes() const { return live.bytes() + sizeof(std::uint32_t) * order.capacity(); }
+    BoxIndex swept;               // everyone, if everyone was joined at the last match
+    bool is_placed = false;       // `swept` holds all who were somewhere before, where they were
+    void forget(std::uint32_t id) {
+      live.remove(id);
+      is_placed = false;
+    }
+    std::size_t bytes() const { return live.bytes() + sizeof(std::uint32_t) * order.capacity() + swept.bytes(); }
   };
   /// One of the two sets, at this match.
   struct Side {
@@ -49,15 +55,14 @@ class ChangeJoin {
   };
   void join_everyone(const Side& entities, const Side& subscribers);
   void join_movers(const Side& entities, const Side& subscribers);
-  void stage(const Side& side, BoxIndex& index);
-  void build(const Side& side, BoxIndex& index);
+  void stage(const Side& side);
+  void place(const Side& side);
   void ask_resting(const Side& askers, const Side& asked);
   template <class Askers>
   void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
 
   Region world_;
   Standing entities_, subscribers_;
-  BoxIndex swept_entities_, swept_subscribers_;
   ProbeList probes_;
   Join join_;
   ChangeList changes_;

@@ -21,6 +21,16 @@ class Scene {
     for (Region& region : subscribers_)
       if (between(random_, 0.0, 1.0) < share) region = moved(random_, region, layout_, 1.0);
   }
+  /// Nearly all move on by up to so many 64ths of a metre, so that ties stay ties; true if entity 3 and subscriber 5 are to be forgotten first.
+  bool drift(int reach) {
+    const auto shift = [&] { return std::round(between(random_, -reach, reach)) / 64.0; };
+    for (std::vector<Region>* regions : {&entities_, &subscribers_})
+      for (Region& region : *regions) {
+        const double dx = shift(), dy = shift();
+        if (between(random_, 0.0, 1.0) < 0.9) region = {region.low_x + dx, region.low_y + dy, region.high_x + dx, region.high_y + dy};
+      }
+    return between(random_, 0.0, 1.0) < 0.1;
+  }
   void tell(Filter& filter) const {
     for (std::uint32_t i = 0; i < entities_.size(); ++i) filter.set_update_region(i, entities_[i]);
     for (std::uint32_t i = 0; i < subscribers_.size(); ++i) filter.set_subscription_region(i, subscribers_[i]);
@@ -70,6 +80,77 @@ TEST(ChangeJoin, FollowsManyThroughEveryShareOfMovers) {
 }
 /// More than the engine takes in the order of their ids.
 TEST(ChangeJoin, FollowsSubscribersInTheOrderOfTheirPlaces) { follow(layouts[0], 2, 200, 5'000, 1); }
+
+/// For as long as nobody goes far, nobody is binned anew. Who was forgotten is someone new.
+void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count, std::uint32_t subscriber_count, int ticks) {
+  SCOPED_TRACE(std::string(layout.name) + " with seed " + std::to_string(seed));
+  Scene scene(layout, seed, entity_count, subscriber_count);
+  const Region world{0.0, 0.0, side, side};
+  OverlapFilter best(world), scalar(world, Instructions::scalar);
+  std::vector<bool> known(std::size_t{entity_count} * subscriber_count);
+  for (int tick = 0; tick < ticks; ++tick) {
+    if (scene.drift(tick % 3)) {
+      for (Filter* filter : {&best, &scalar}) filter->remove_entity(3), filter->remove_subscriber(5);
+      for (std::size_t place = 0; place < known.size(); ++place)
+        if (place % entity_count == 3 || place / entity_count == 5) known[place] = false;
+    }
+    scene.tell(best), scene.tell(scalar);
+    const auto changes = best.match(), plain = scalar.match();
+    ASSERT_TRUE(std::equal(changes.begin(), changes.end(), plain.begin(), plain.end())) << "the scalar path differs";
+    for (const Change& change : changes) known[change.subscriber * scene.entity_count() + change.entity] = change.transition == Transition::entered;
+    ASSERT_EQ(known, scene.recount()) << "at tick " << tick;
+  }
+}
+
+TEST(ChangeJoin, FollowsManyWhoDriftSlowly) {
+  for (const Layout& layout : layouts) drift(layout, 3, 700, 300, 60);
+}
+TEST(ChangeJoin, FollowsManySubscribersWhoDriftSlowly) { drift(layouts[1], 4, 100, 5'000, 20); }
+
+/// What moves is known where it was binned until it is a quarter of a column away.
+TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
+  Random random(7);
+  RegionHistory regions;
+  BoxIndex index;
+  const auto tell = [&](double shift) {
+    for (std::uint32_t id = 0; id < 1'000; ++id) {
+      const Region from = shift == 0.0 ? around(between(random, 0.0, side), between(random, 0.0, side), 0.1) : regions[id].now;
+      regions.set(id, {from.low_x + shift, from.low_y - shift, from.high_x + shift, from.high_y - shift});
+    }
+    regions.take_moved();
+  };
+  tell(0.0);
+  index.begin({0.0, 0.0, side, side}, regions.size(), true);
+  for (std::uint32_t id = 0; id < regions.size(); ++id) index.stage(id, regions[id]);
+  index.build();
+  // 1,000 boxes in 256 square metres, 32 to a square, of which a row has six to the square: columns of half a metre.
+  for (int tick = 0; tick < 10; ++tick) {
+    regions.settle();
+    tell(0.01);
+    ASSERT_TRUE(index.follow(regions)) << "after " << tick;
+    Buffer<Stretch> stretches;
+    const FloatBox asked{3.0f, 4.0f, 9.0f, 8.0f};
+    index.find_changes({asked, asked, 0, 0}, stretches);
+    std::vector<bool> is_candidate(regions.size());
+    for (const Stretch& stretch : stretches.span())
+      for (std::uint32_t place = stretch.first; place < stretch.end; ++place) is_candidate[index.ids()[place]] = true;
+    for (std::uint32_t id = 0; id < regions.size(); ++id) {
+      const bool was_in = overlap(regions[id].before, {3.0, 4.0, 9.0, 8.0}), is_in = overlap(regions[id].now, {3.0, 4.0, 9.0, 8.0});
+      ASSERT_TRUE(was_in == is_in || is_candidate[id]) << id;
+    }
+  }
+  regions.settle();
+  tell(0.2);
+  EXPECT_FALSE(index.follow(regions));
+}
+
+TEST(ChangeJoinLong, DriftsThroughEveryLayout) {
+  for (std::uint64_t seed = 10; seed < 40; ++seed)
+    for (const Layout& layout : layouts) {
+      drift(layout, seed, 700, 300, 200);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+}
 
 TEST(ChangeJoinLong, FollowsManyThroughEveryShareOfMovers) {
   for (std::uint64_t seed = 10; seed < 60; ++seed)
