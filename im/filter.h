@@ -64,6 +64,11 @@ struct Role {
   friend bool operator==(const Role&, const Role&) = default;
 };
 
+/// What a filter makes of what it may be told beside regions, and whether it says tiers: who hands in or expects anything else works for nothing.
+struct Traits {
+  bool uses_roles = false, uses_headings = false, uses_flights = false, says_tiers = false;
+};
+
 /// How something moves until its next flight: its middle from (x, y) at `time` [s] on with that velocity [m/s] against the drag of the settings.
 struct Flight {
   double x = 0.0, y = 0.0, velocity_x = 0.0, velocity_y = 0.0, time = 0.0;
@@ -123,6 +128,8 @@ class Filter {
   /// Who is to be sent first, if the outermost stage that says so is `priority`; else nothing.
   virtual PriorityOrder* priority() { return nullptr; }
 
+  virtual Traits traits() const { return {}; }
+
   virtual const FilterCounters& counters() const = 0;
   /// Appends what each stage did.
   virtual void list_counts(std::vector<StageCount>&) const {}
@@ -149,6 +156,12 @@ std::unique_ptr<Filter> make_filter(const std::string& expression, const FilterS
 
 /// What is wrong with `expression` or `settings`, naming the offender; nothing if `make_filter` takes them.
 std::optional<std::string> complaint_about(const std::string& expression, const FilterSettings& settings);
+
+/// True if `expression` has a scheme with cells whose size it does not give, so that they have the settings': what else they are told changes nothing.
+bool takes_cell_size(const std::string& expression);
+
+/// True if the scheme called `name` is one of those that `expression` is made of.
+bool names_scheme(const std::string& expression, const std::string& name);
 
 /// `expression` as part of a file's name: without spaces and parentheses.
 std::string file_name_of(const std::string& expression);

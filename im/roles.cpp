@@ -21,6 +21,7 @@ class RoleFilter final : public OverlapFilter {
   }
   void set_entity_role(Entity entity, const Role& role) override { set_entity_role(entity, role, entities_.contains(entity)); }
   void set_subscriber_role(Subscriber subscriber, const Role& role) override { set_subscriber_role(subscriber, role, subscribers_.contains(subscriber)); }
+  Traits traits() const override { return {.uses_roles = true}; }
 
  private:
   void set_entity_role(Entity entity, const Role& role, bool is_there) {

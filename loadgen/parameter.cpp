@@ -13,10 +13,6 @@ namespace {
 
 bool always(const std::string&) { return true; }
 bool filters(const std::string& scheme) { return scheme != "none"; }
-bool has_cells(const std::string& scheme) {
-  const auto filter = im::make_filter(scheme, {});
-  return filter && filter->cell_size() > 0.0;
-}
 
 constexpr std::array kinds{
     ParameterKind{"view_fraction", "numbers above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; }, false,
@@ -29,7 +25,7 @@ constexpr std::array kinds{
                   [](const Parameters& p) { return static_cast<double>(p.sweep_ticks); }, [](Parameters& p, double v) { p.sweep_ticks = static_cast<std::uint32_t>(v); },
                   &Experiment::sweep_ticks, filters, "sweep", "swept ", " ticks", "update regions swept over [ticks]", "swept", 1.0},
     ParameterKind{"cell_size", "numbers from 0.001 to 1e6, or 0 (the scheme chooses)", [](double v) { return v == 0.0 || (v >= 1e-3 && v <= 1e6); }, false,
-                  [](const Parameters& p) { return p.cell_size; }, [](Parameters& p, double v) { p.cell_size = v; }, &Experiment::cell_sizes, has_cells,
+                  [](const Parameters& p) { return p.cell_size; }, [](Parameters& p, double v) { p.cell_size = v; }, &Experiment::cell_sizes, im::takes_cell_size,
                   "cell", "cells ", " m", "side of a cell [m]", "cells, m", 1.0},
     ParameterKind{"tick_rate_hz", "numbers from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; }, false,
                   [](const Parameters& p) { return p.tick_rate_hz; }, [](Parameters& p, double v) { p.tick_rate_hz = v; }, &Experiment::tick_rates_hz, always,

@@ -140,6 +140,17 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   return make_tiers(build_inner(), std::move(rings), std::move(fractions));
 }
 
+/// True if `is_one` holds for a scheme in `text`, which says an expression.
+template <class IsOne>
+bool has_scheme(const std::string& text, const IsOne& is_one) {
+  const auto search = [&is_one](const auto& self, const Expression& expression) -> bool {
+    if (expression.kind == Kind::scheme && is_one(expression)) return true;
+    return std::any_of(expression.operands.begin(), expression.operands.end(), [&](const Expression& operand) { return self(self, operand); });
+  };
+  Expression expression;
+  return read_expression(text, expression).empty() && search(search, expression);
+}
+
 std::string judge_settings(const FilterSettings& settings) {
   if (const auto rejection = check_world(settings.world)) return describe(*rejection);
   if (!(settings.cell_size >= 0.0) || !std::isfinite(settings.cell_size)) return describe({Fault::bad_cell_size, Subject::cells});
@@ -198,6 +209,17 @@ std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSetting
   Expression expression;
   read_expression(text, expression);
   return build_filter(expression, settings);
+}
+
+bool takes_cell_size(const std::string& text) {
+  return has_scheme(text, [](const Expression& scheme) {
+    const bool has_cells = std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return scheme.name == key.owner && std::string_view(key.key) == "cell_size"; });
+    return has_cells && std::isnan(scheme.parameter("cell_size", std::numeric_limits<double>::quiet_NaN()));
+  });
+}
+
+bool names_scheme(const std::string& text, const std::string& name) {
+  return has_scheme(text, [&name](const Expression& scheme) { return scheme.name == name; });
 }
 
 std::string file_name_of(const std::string& expression) {

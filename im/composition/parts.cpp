@@ -37,6 +37,15 @@ void Parts::share_with(Worker* worker) {
   for (const auto& part : parts_) part->share_with(worker);
 }
 
+Traits Parts::traits() const {
+  Traits all;
+  for (const auto& part : parts_) {
+    const Traits own = part->traits();
+    all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings, all.uses_flights |= own.uses_flights, all.says_tiers |= own.says_tiers;
+  }
+  return all;
+}
+
 double Parts::cell_size() const {
   double smallest = 0.0;
   for (const auto& part : parts_) {

@@ -29,6 +29,8 @@ class Parts : public Filter {
   /// They match one after the other, so one worker serves them all.
   void share_with(Worker* worker) override;
 
+  /// Of all parts together.
+  Traits traits() const override;
   /// Of the first part.
   std::span<const Stay> stays() const override { return parts_.front()->stays(); }
   PriorityOrder* priority() override { return parts_.front()->priority(); }

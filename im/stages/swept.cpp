@@ -109,6 +109,11 @@ class Swept final : public Parts {
     pairs_.remove_subscriber(subscriber);
     Parts::remove_subscriber(subscriber);
   }
+  Traits traits() const override {
+    Traits own = Parts::traits();
+    own.uses_flights = true;
+    return own;
+  }
   void set_flight(Entity entity, const Flight& flight) override { flights_told_ += entities_.fly(entity, flight) ? 1u : 0u; }
   void set_subscriber_flight(Subscriber subscriber, const Flight& flight) override { flights_told_ += subscribers_.fly(subscriber, flight) ? 1u : 0u; }
   void set_time(double now) override {

@@ -34,6 +34,11 @@ class Tiers final : public ReviewedParts {
     for (const Change& change : changes) tier_changes_ += change.transition == Transition::tier_changed ? 1u : 0u;
     return changes;
   }
+  Traits traits() const override {
+    Traits own = Parts::traits();
+    own.says_tiers = true;
+    return own;
+  }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
     counts.push_back({"tiers", "changes of tier", tier_changes_});

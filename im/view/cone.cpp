@@ -60,6 +60,7 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     forget(subscriber);
     PredicateFilter::remove_subscriber(subscriber);
   }
+  Traits traits() const override { return {.uses_headings = true}; }
   void set_heading(Subscriber subscriber, const Heading& heading) override {
     assert(std::isfinite(heading.x) && std::isfinite(heading.y));
     if (!subscribers_.contains(subscriber)) return;

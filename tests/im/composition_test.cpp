@@ -78,6 +78,11 @@ TEST(Composition, TakesParametersOfItsSchemes) {
   EXPECT_EQ(make_filter("aura and (grid(cell_size=2) or hex)", settings)->cell_size(), 2.0);
 }
 
+TEST(Composition, TakesASizeOfCellsWhereASchemeWithCellsLeavesItOpen) {
+  for (const char* open : {"grid", "not hex", "aura or (hybrid and strips)", "grid(cell_size=2) or grid", "hierarchical with dwell(matches=3)"}) EXPECT_TRUE(takes_cell_size(open)) << open;
+  for (const char* fixed : {"region", "grid(cell_size=2)", "not (aura or hex(cell_size=1))", "strips(cell_size=3) with dwell(matches=3)", "gird", "grid and"}) EXPECT_FALSE(takes_cell_size(fixed)) << fixed;
+}
+
 TEST(Composition, IsNetAndCostsNothingAtRest) {
   const auto filter = make_filter("(aura and not team) or always", {.world = {0.0, 0.0, 100.0, 100.0}});
   for (std::uint32_t id = 0; id < 50; ++id) {
@@ -111,6 +116,17 @@ TEST(Roles, MakeATeamAndAnOwnerAndWhoIsAlwaysRelevant) {
   filter->remove_entity(1);
   filter->set_update_region(1, {});
   EXPECT_THAT(filter->match(), IsEmpty()) << "whoever comes again has no role";
+}
+
+TEST(Traits, SayWhatAFilterMakesUseOf) {
+  const auto of = [](const char* expression) {
+    const Traits traits = make_filter(expression, {})->traits();
+    return std::string(traits.uses_roles ? "roles " : "") + (traits.uses_headings ? "headings " : "") + (traits.uses_flights ? "flights " : "") + (traits.says_tiers ? "tiers" : "");
+  };
+  for (const char* plain : {"none", "region", "aura and not sight", "grid with hysteresis(margin=1) with dwell(matches=3) with priority"}) EXPECT_EQ(of(plain), "") << plain;
+  EXPECT_EQ(of("aura or team"), "roles ");
+  EXPECT_EQ(of("(region and not cone) with hysteresis(margin=1)"), "headings ");
+  EXPECT_EQ(of("(always or cone) with swept(horizon=1) with tiers(at=0.5) with priority"), "roles headings flights tiers");
 }
 
 TEST(Expression, IsRefusedByNameWhereItIsWrong) {

@@ -71,6 +71,14 @@ TEST(Sweep, EachSchemeIsACurveAlongTheParameterInAscendingOrder) {
   EXPECT_THAT(report.html, Not(HasSubstr("by ticks per second")));
 }
 
+TEST(Sweep, ASchemeThatGivesItsOwnSizeOfCellsRunsOnce) {
+  Experiment experiment = sweep_of_cells();
+  experiment.schemes = {"grid(cell_size=2)", "grid(cell_size=2) or grid"};
+  experiment.view_margins = {0.0};
+  experiment.seeds = {1};
+  EXPECT_EQ(cells_of(experiment).size(), 1u + experiment.cell_sizes.size());
+}
+
 TEST(Sweep, WithoutOneBytesStandAgainstRecallAndPrecisionAllTheSame) {
   Experiment experiment = sweep_of_cells();
   experiment.cell_sizes = {1.0}, experiment.view_margins = {0.0};
