@@ -10,6 +10,7 @@
 #include "game/players/player.h"
 #include "loadgen/process.h"
 #include "loadgen/truth/truth.h"
+#include "rti/federation_execution.h"
 
 namespace rink::loadgen {
 namespace {
@@ -160,6 +161,8 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
   if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
   if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
+  if (im::names_scheme(cell.scheme, "always"))
+    for (const std::string& kind : experiment.always) add("--always", kind);
   if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
   add("--policy", cell.policy);
   add("--rate", decimal(cell.parameters.tick_rate_hz));

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "game/net/relevant_kinds.h"
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment_network.h"
@@ -48,6 +49,8 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   reader.number("delay_ms", result.delay_ms, "a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 10'000.0; });
   reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"udp", TransportKind::udp}, {"shm", TransportKind::shared_memory}, {"virtual", TransportKind::virtual_time}});
   reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}});
+  if (reader.has("also_relevant")) reader.choose("also_relevant", result.also_relevant, {"team", "always"});
+  if (reader.has("always")) reader.choose("always", result.always, game::relevant_kind_names);
   reader.choice<Design>("design", result.design, {{"matrix", Design::matrix}, {"one_at_a_time", Design::one_at_a_time}});
   reader.choice<Population>("population", result.population, {{"fixed", Population::fixed}, {"per_client", Population::per_client}});
   reader.choice<KeySource>("keys", result.keys, {{"replay", KeySource::replay}, {"live", KeySource::live}});
@@ -79,6 +82,13 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
   if (experiment.sweep_ticks != std::vector<double>{0.0}) refuse("sweeps no regions: expected sweep_ticks = 0");
   if (experiment.server_cores != std::vector<std::uint32_t>{1}) refuse("has no server: expected server_cores = 1");
   if (experiment.network_carries_datagrams) refuse("sends no datagrams: expected a [network] without them");
+}
+
+void expect_use_of_always(const Experiment& experiment, const std::string& file) {
+  const auto has = [](const auto& list, const auto& is_one) { return std::any_of(list.begin(), list.end(), is_one); };
+  if (experiment.always.empty() || has(experiment.schemes, [](const std::string& scheme) { return im::names_scheme(scheme, "always"); })) return;
+  if (!has(experiment.also_relevant, [](const std::string& more) { return more == "always"; }))
+    throw ExperimentError(file + ": always = " + joined(experiment.always) + " changes nothing: neither schemes nor also_relevant name always");
 }
 
 }  // namespace
@@ -117,6 +127,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   read_network(reader, result);
   reader.refuse_the_rest();
   expect_what_peers_can(result, file.string());
+  expect_use_of_always(result, file.string());
   return result;
 }
 

@@ -79,6 +79,8 @@ struct Experiment {
   bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
   Relevance relevance = Relevance::rectangle;
+  std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side; `always`, what is always relevant
+  std::vector<std::string> always;         ///< kinds of bodies that are always relevant; none: as the scene has it (game::relevant_kinds_of)
   std::string baseline_scheme = "none", baseline_policy = "periodic";  ///< what ratios refer to; read from a file that compares neither: the first of its lists
   std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the bots on the others; 2: both wherever they like
   Design design = Design::matrix;

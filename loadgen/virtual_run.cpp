@@ -42,7 +42,7 @@ class VirtualRun {
   void end(Json& server_report);
 
  private:
-  static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys);
+  static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
@@ -71,9 +71,10 @@ class VirtualRun {
   game::ServingCounts begin_, end_;
 };
 
-game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const std::vector<game::InputEvent>& keys) {
+game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys) {
   game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
+  settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
   return settings;
 }
 
@@ -96,7 +97,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       cell_(cell),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, scene, server_settings(experiment, cell, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+      serving_(fom, scene, server_settings(experiment, cell, scene, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
                [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {

@@ -52,6 +52,15 @@ void FederationExecution::match() {
   parts_->counters_.scope_exits = parts_->interest_.counters().exits;
 }
 
+void FederationExecution::set_object_role(ObjectHandle object, const im::Role& role) {
+  const ObjectSlot slot = parts_->objects_.find(object);
+  if (slot != no_object) parts_->interest_.set_role(slot, role);
+}
+
+void FederationExecution::set_federate_role(FederateHandle federate, const im::Role& role) {
+  if (const auto slot = parts_->joined_slot(federate)) parts_->interest_.set_federate_role(*slot, role);
+}
+
 void FederationExecution::flush(Outlet& outlet) {
   parts_->settle_time();
   parts_->tell_object_relevance();
@@ -69,16 +78,14 @@ const DataDistribution& FederationExecution::distribution() const { return parts
 
 bool FederationExecution::is_in_scope(FederateHandle federate, ObjectHandle object) const {
   const ObjectSlot slot = parts_->objects_.find(object);
-  if (federate.value >= parts_->slot_of_handle_.size() || slot == no_object) return false;
-  const std::uint32_t federate_slot = parts_->slot_of_handle_[federate.value];
-  return parts_->federates_[federate_slot].handle == federate && parts_->interest_.of(federate_slot).in_scope.contains(slot);
+  const auto federate_slot = parts_->joined_slot(federate);
+  return slot != no_object && federate_slot && parts_->interest_.of(*federate_slot).in_scope.contains(slot);
 }
 
 void FederationExecution::list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const {
-  if (federate.value >= parts_->slot_of_handle_.size()) return;
-  const std::uint32_t federate_slot = parts_->slot_of_handle_[federate.value];
-  if (parts_->federates_[federate_slot].handle != federate) return;
-  parts_->interest_.of(federate_slot).in_scope.for_each([&](ObjectSlot slot) { objects.push_back(parts_->objects_[slot].handle); });
+  const auto federate_slot = parts_->joined_slot(federate);
+  if (!federate_slot) return;
+  parts_->interest_.of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) { objects.push_back(parts_->objects_[slot].handle); });
 }
 
 void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {

@@ -103,6 +103,10 @@ class FederationExecution final : public CentralComponent {
   void disconnect(ConnectionId connection, std::string_view why) override;
   /// `now` [s] never decreases. Drops who has been silent for too long.
   void advance_clock(double now) override;
+  /// What the host of a federation knows of it and the filter may use (docs/rti.md, "What a filter knows beside regions"): who is of which team, whose he is and what is always
+  /// relevant. What has the number of a federate's owner is told to it whatever the filter says. Who is not there is ignored; a role ends with who has it.
+  void set_object_role(ObjectHandle object, const im::Role& role);
+  void set_federate_role(FederateHandle federate, const im::Role& role);
   /// Runs the filter and turns its changes into scope changes.
   void match() override;
   void flush(Outlet& outlet) override;

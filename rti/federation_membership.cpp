@@ -110,6 +110,13 @@ void FederationExecution::Parts::tell_difference() {
   bytes.insert(bytes.end(), refused.begin(), refused.end());
 }
 
+/// Nothing if it has left, or there was none of that handle.
+std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(FederateHandle federate) const {
+  if (federate.value >= slot_of_handle_.size()) return std::nullopt;
+  const std::uint32_t slot = slot_of_handle_[federate.value];
+  return slot < federates_.size() && federates_[slot].is_joined && federates_[slot].handle == federate ? std::optional(slot) : std::nullopt;
+}
+
 std::uint32_t FederationExecution::Parts::take_federate_slot() {
   if (free_federates_.empty()) {
     federates_.emplace_back();

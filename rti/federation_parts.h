@@ -104,6 +104,7 @@ class FederationExecution::Parts {
   void tell_difference();
   void admit(ConnectionId connection, const JoinMessage& message);
   std::uint32_t take_federate_slot();
+  std::optional<std::uint32_t> joined_slot(FederateHandle federate) const;
   std::uint32_t take_block();
   void remove_federate(std::uint32_t slot, ResignReason reason);
   void expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why);

@@ -62,7 +62,7 @@ class ServerProcess {
         sockets_(options.transport),
         serving_(fom, scene,
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
-                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options)},
+                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options), .always_relevant = game::relevant_kinds_of(scene, options.always)},
                  federation_of(options, scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
         staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
         gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),

@@ -8,6 +8,7 @@
 
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
+#include "game/net/relevant_kinds.h"
 #include "game/replication/update_policy.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/socket_transport.h"
@@ -17,6 +18,7 @@ namespace rink::game {
 struct ServeOptions {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", transport = "tcp", hosted;
   std::string key_file;
+  std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
@@ -51,6 +53,9 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
       ->check([](const std::string& text) { return im::complaint_about(text, {}).value_or(""); }, "SCHEME")
       ->capture_default_str();
   app.add_option("--cell-size", options.cell_size, "of schemes with cells [m]; 0: chosen")->check(zero_or_number_from(cell_size_min, 1e6))->capture_default_str();
+  app.add_option("--always", options.always, "kinds of bodies that the scheme always lets through: puck, bat, post; unless said otherwise posts, and the pucks of a match to a number of goals")
+      ->check(CLI::IsMember(relevant_kind_names))
+      ->delimiter(',');
   app.add_flag("--second-core", options.has_second_core, "another thread takes half of each match of interest that is large enough to gain by it (docs/im.md); the decisions are the same");
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();

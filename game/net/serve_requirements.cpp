@@ -23,17 +23,18 @@ void require_match(const ServeOptions& options, const Scene& scene) {
     throw std::runtime_error("a hosted match is played by its players in real time: --keys, --pace and --time-management cannot be given");
 }
 
-/// Throws if cells are given a size that a scheme has none of: a sweep of it would compare equal runs.
+/// Throws if a scheme is given a size of cells that it does not take: a sweep of it would compare equal runs.
 void require_cells(const ServeOptions& options) {
-  const auto has_cells = [](const std::string& scheme) {
-    const auto filter = im::make_filter(scheme, {});
-    return filter && filter->cell_size() > 0.0;
-  };
-  if (options.cell_size == 0.0 || has_cells(options.scheme)) return;
+  if (options.cell_size == 0.0 || im::takes_cell_size(options.scheme)) return;
   std::string having;
   for (const std::string& name : im::filter_names())
-    if (has_cells(name)) having += (having.empty() ? "" : ", ") + name;
-  throw std::runtime_error("--cell-size: the scheme " + options.scheme + " has no cells; those that have are " + having);
+    if (im::takes_cell_size(name)) having += (having.empty() ? "" : ", ") + name;
+  throw std::runtime_error("--cell-size: the scheme " + options.scheme + " has no cells whose size it leaves open; schemes with cells are " + having);
+}
+
+/// Throws if something is said to be always relevant to a scheme that does not ask: a comparison of it would compare equal runs.
+void require_always(const ServeOptions& options) {
+  if (!options.always.empty() && !im::names_scheme(options.scheme, "always")) throw std::runtime_error("--always: the scheme " + options.scheme + " does not name always; one that does is " + options.scheme + " or always");
 }
 
 }  // namespace
@@ -68,6 +69,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   if (body_count > body_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
   require_cells(options);
+  require_always(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error("--spread staggers what goes by streams in real time: --pace synchronous and --transport udp can't be given with it");
   if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");

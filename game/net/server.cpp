@@ -24,6 +24,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       policy_(make_update_policy(settings.policy)),
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
+      always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))),
       is_synchronous_(settings.is_synchronous),
       is_time_managed_(settings.is_time_managed),
       tick_s_(settings.tick_s) {
@@ -172,6 +173,7 @@ void Server::simulate(double until) {
 }
 
 void Server::publish(const rti::Stamp& stamp) {
+  seated_.clear();
   publisher_->publish(game_, felt_, stamp);
   if (flow_) publish_match(stamp);
   if (std::exchange(has_stepped_, false) && is_synchronous_ && !is_time_managed_) tell_pace({}, stamp.time);
@@ -189,6 +191,7 @@ void Server::offer_seats() {
     if (is_synchronous_ || is_time_managed_) tell_pace(rti::FederateHandle{federate}, game_.now());
     offer_seat(rti::FederateHandle{federate}, {.bat = seat->player, .position = rounded(game_.position(*bat))});
     seat->is_offered = true;
+    seated_.push_back({rti::FederateHandle{federate}, seat->player});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "game/control/key_log.h"
 #include "game/control/match_flow.h"
 #include "game/match/interest_seen.h"
+#include "game/net/relevant_kinds.h"
 #include "game/replication/publisher.h"
 #include "rti/ambassador.h"
 
@@ -36,6 +38,7 @@ struct ServerSettings {
   std::optional<std::vector<InputEvent>> replay;
   /// Absent: one game that never stops. There must be no match_objection() to the scene, and no replay (both asserted).
   std::optional<Hosting> hosting{};
+  std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
 };
 
 struct ServerCounters {
@@ -83,6 +86,16 @@ class Server : public rti::FederateAmbassador {
   void simulate(double until);
   /// Hands all that changed to the ambassador, stamped.
   void publish(const rti::Stamp& stamp);
+
+  /// What `publish` made known the last time: entities with their new objects, and players with their federates. For who tells the RTI's filter (acquaint.h).
+  struct Seated {
+    rti::FederateHandle federate;
+    std::uint32_t player = 0;
+  };
+  std::span<const Publisher::Registered> registered() const { return publisher_->registered(); }
+  std::span<const Seated> seated() const { return seated_; }
+  /// Whether what is of `kind` is relevant to everybody, for the scheme `always`.
+  bool is_always_relevant(physics::BodyKind kind) const { return always_relevant_.has(kind); }
 
   /// The RTI object of an entity of the game.
   rti::ObjectHandle object(EntityId entity) const { return publisher_->object(entity); }
@@ -162,6 +175,8 @@ class Server : public rti::FederateAmbassador {
   std::vector<std::uint32_t> felt_;         ///< by player
   std::vector<InputEvent> record_;
   std::vector<Inspecting> inspections_;     ///< at most one of each federate
+  std::vector<Seated> seated_;
+  RelevantKinds always_relevant_;
   std::uint32_t player_count_ = 0, turns_done_ = 0;
   bool is_synchronous_, is_time_managed_;
   bool is_called_ = false, is_started_ = false;  ///< the players, to the start

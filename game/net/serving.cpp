@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "game/net/acquaint.h"
 #include "game/net/interest_report.h"
 
 namespace rink::game {
@@ -75,6 +76,7 @@ void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   server_.publish({.time = simulated_s, .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());
   host_.poll({});
+  acquaint(server_, execution_);
   watch.add_to(costs.send_s);
   host_.match();
   watch.add_to(costs.filter_s);

@@ -23,6 +23,7 @@ Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, Upda
 void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, const rti::Stamp& stamp) {
   ++tick_;
   moved_.clear();
+  registered_.clear();
   sweep_.look_at(game.world());
   for (const Entity& entity : game.entities()) {
     Input input;
@@ -44,6 +45,7 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input, 
   published.object = ambassador_.register_object_instance(model_.entity, entity.player ? bat_name(*entity.player) : "");
   if (published.object && keeps_order_) ambassador_.change_attribute_order_type(published.object, {model_.input, motion_}, rti::Order::timestamp);
   if (!published.object) return;  // a federate's handles are used up by 262,144 registrations: this bat came too late to be seen, the others play on
+  registered_.push_back({published.object, entity});
   published.region = ambassador_.create_region();
   published.position = rounded(game.position(entity.id));
   published.input = input;

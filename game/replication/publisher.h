@@ -36,6 +36,13 @@ class Publisher {
   /// Deletes the objects of all entities: another game begins.
   void retire_all();
 
+  /// Entities that the last `publish` registered, with their objects.
+  struct Registered {
+    rti::ObjectHandle object;
+    Entity entity;
+  };
+  std::span<const Registered> registered() const { return registered_; }
+
   /// The RTI object of `entity`, which must be in the game.
   rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
 
@@ -67,6 +74,7 @@ class Publisher {
   const rti::AttributeHandle motion_;
   RegionSweep sweep_;
   std::vector<Published> published_;  ///< by entity
+  std::vector<Registered> registered_;
   std::vector<rti::RegionBounds> moved_;
   std::vector<std::byte> encoded_;
   rti::ObjectHandle field_, score_;

@@ -13,11 +13,21 @@ double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centr
   return std::min(area.reach + half_extent.x() - std::abs(offset.x()), area.reach + half_extent.y() - std::abs(offset.y()));
 }
 
+bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::BodyKind kind, game::Team team) {
+  return (area.has_team && kind == physics::BodyKind::bat && team == own && own != game::Team::none) || (area.always && area.always->has(kind));
+}
+
 std::string text_of(const RelevanceArea& area) {
   char text[96];
   if (area.shape == RelevanceArea::Shape::disc) std::snprintf(text, sizeof text, "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
   else std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box", 2.0 * area.reach);
-  return text;
+  std::string words = text;
+  if (area.has_team) words += ", or a bat of the player's team";
+  if (!area.always) return words;
+  std::string kinds;
+  for (std::size_t kind = 0; kind < game::relevant_kind_names.size(); ++kind)
+    if (area.always->has(static_cast<physics::BodyKind>(kind))) kinds += (kinds.empty() ? "" : " or ") + game::relevant_kind_names[kind];
+  return words + ", or any " + kinds;
 }
 
 }  // namespace rink::loadgen

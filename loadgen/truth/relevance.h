@@ -1,8 +1,10 @@
 // What truth calls relevant to a player: an area around its bat, and the way in which an entity is in it.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "game/net/relevant_kinds.h"
 #include "game/physics/body.h"
 
 namespace rink::loadgen {
@@ -15,7 +17,12 @@ struct RelevanceArea {
   enum class Shape : std::uint8_t { square, disc };
   Shape shape = Shape::square;
   double reach = 1.0;  ///< m, above 0
+  bool has_team = false;                       ///< bats of the player's side are relevant as well, wherever they are,
+  std::optional<game::RelevantKinds> always{}; ///< and so is what is of these kinds
 };
+
+/// True if `area` makes an entity of that kind and team relevant to a player of `own` team wherever both are.
+bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::BodyKind kind, game::Team team);
 
 /// How deep an entity is within the area around a bat at `bat` [m]: relevant from 0 on, negative outside.
 double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent);

@@ -1,7 +1,9 @@
 // The scene as the server chose it, with every key at its stamped instant.
 #include "loadgen/truth/replay.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,7 +12,7 @@
 namespace rink::loadgen {
 
 Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area)
-    : game_(game::chosen_scene(evidence.choice)), surroundings_(area, game_.world().spec().field.length, game_.world().spec().field.width), rate_hz_(evidence.rate_hz) {
+    : game_(game::chosen_scene(evidence.choice)), area_(area), surroundings_(area, game_.world().spec().field.length, game_.world().spec().field.width), rate_hz_(evidence.rate_hz) {
   game_.record_events(true);
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
@@ -33,6 +35,21 @@ void Replay::look_around() {
     placed_.push_back({entity.id.index, centre, entity.half_extent});
   }
   surroundings_.build(placed_);
+}
+
+void Replay::find(std::uint32_t own, std::vector<Relevant>& found) const {
+  surroundings_.find(centre(own), own, found);
+  if (!area_.has_team && !area_.always) return;
+  const game::Team team = game_.entity({own}).team;
+  const std::size_t near = found.size();
+  for (const game::Entity& each : game_.entities()) {
+    if (each.id.index == own || !is_relevant_anywhere(area_, team, each.kind, each.team)) continue;
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(near);
+    const auto place = std::lower_bound(found.begin(), end, each.id.index, [](const Relevant& a, std::uint32_t b) { return a.entity < b; });
+    if (place != end && place->entity == each.id.index) place->depth = std::numeric_limits<double>::infinity();
+    else found.push_back({each.id.index, std::numeric_limits<double>::infinity()});
+  }
+  std::inplace_merge(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(near), found.end(), [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
 }
 
 /// A puck that is put back at a face-off comes by no path: until the next tick, the first that can tell of it, it counts as lying where it left play.

@@ -32,7 +32,8 @@ class Replay {
   /// At the look remembered, if it was there.
   std::optional<Vector2> centre_before(std::uint32_t entity) const { return entity < before_.size() ? before_[entity] : std::nullopt; }
   Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
-  void find(std::uint32_t own, std::vector<Relevant>& found) const { surroundings_.find(centre(own), own, found); }
+  /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely deep.
+  void find(std::uint32_t own, std::vector<Relevant>& found) const;
 
   std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;
   std::optional<std::uint32_t> bat_of(std::uint32_t player) const;
@@ -49,6 +50,7 @@ class Replay {
   Vector2 announced_centre(game::EntityId entity);
 
   game::Game game_;
+  RelevanceArea area_;
   Surroundings surroundings_;
   double rate_hz_;
   std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play

@@ -231,15 +231,21 @@ TruthFigures Judgement::sums() {
 
 TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return Judgement(server, bots, area).figures(); }
 
-RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const physics::Field& field) {
+RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
+  const physics::Field& field = scene.world.field;
   const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
-  return {experiment.relevance == Relevance::rectangle ? RelevanceArea::Shape::square : RelevanceArea::Shape::disc, reach};
+  RelevanceArea area{.shape = experiment.relevance == Relevance::rectangle ? RelevanceArea::Shape::square : RelevanceArea::Shape::disc, .reach = reach};
+  for (const std::string& more : experiment.also_relevant) {
+    if (more == "team") area.has_team = true;
+    else area.always = game::relevant_kinds_of(scene, experiment.always);
+  }
+  return area;
 }
 
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file) {
   try {
     const game::ServerEvidence server = game::read_server_evidence(server_file);
-    const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice).world.field);
+    const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
     record.truth.relevance = text_of(area);
     std::vector<double> ticks_s;
     for (const game::ServerEvidence::Tick& tick : server.ticks) ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);

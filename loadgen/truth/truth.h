@@ -19,8 +19,8 @@ class DifferentGame : public game::EvidenceError {
 /// not end in the server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the scene cannot be read.
 TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area);
 
-/// The area that `experiment` calls relevant in `cell`, played on `field`.
-RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const physics::Field& field);
+/// What `experiment` calls relevant in `cell`, which plays `scene`.
+RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene);
 
 /// Reads both files and fills `record.truth` and `record.tick_us`. Evidence that is missing, truncated or altered leaves the figures absent and says why in
 /// `record.truth.trouble`; a game that ends elsewhere when it is played again makes the run invalid. Throws nothing.

@@ -125,6 +125,12 @@ class DataDistribution {
   /// falling back to the default region meanwhile would show every body that is handed over to everybody.
   virtual void owner_changed(ObjectSlot slot) = 0;
 
+  /// What the filter may know beside regions (docs/rti.md, "What a filter knows beside regions"). The role of an object is that of the regions which it uses for updates: of objects
+  /// that share one, what they agree in. Whose owner has the number of a federate's is always in scope of what that federate subscribes to with regions, whatever the filter says.
+  /// Both last until who has them is gone.
+  virtual void set_role(ObjectSlot, const im::Role&) {}
+  virtual void set_federate_role(std::uint32_t /*federate*/, const im::Role&) {}
+
   /// Those of an object's attributes that the last match put in its scope by subscriptions that are not passive.
   virtual AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) = 0;
   /// While it is watched, `touched` lists the objects that came into or went out of anybody's scope, in whole or in part, or were registered or changed hands, until it is cleared.

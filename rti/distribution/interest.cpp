@@ -8,7 +8,7 @@
 namespace rink::rti {
 
 Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)) {
+    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)), traits_(filter_->traits()) {
   const auto x = fom.dimension("X"), y = fom.dimension("Y");
   if (!x || !y) return;
   x_ = *x, y_ = *y;
@@ -140,7 +140,9 @@ Interest::Regional& Interest::regional(DeclaredInterest& interest, RegionSlot sl
   added.subscriber = free_subscribers_.back();
   free_subscribers_.pop_back();
   subscribers_[added.subscriber] = interest.federate;
-  if (region.is_committed) filter_->set_subscription_region(added.subscriber, region.plane);
+  if (!region.is_committed) return added;
+  filter_->set_subscription_region(added.subscriber, region.plane);
+  tell_subscriber_role(interest, added.subscriber);
   return added;
 }
 
@@ -181,6 +183,7 @@ void Interest::object_registered(ObjectSlot slot) {
 
 void Interest::object_deleted(ObjectSlot slot) {
   if (uses_[slot].region != no_region) set_associations(slot, {});
+  if (slot < roles_.size()) roles_[slot] = {};
   for (const auto& interest : federates_)
     if (interest) interest->in_scope.erase(slot);
 }
@@ -218,11 +221,11 @@ AttributeSet Interest::wanted(const DeclaredInterest& interest, ObjectSlot slot)
   for (const Regional& each : interest.regionals) {
     const AttributeSet named = is_active_only ? active(each.classes, object.object_class) : each.classes.expanded[object.object_class];
     if (used.region == several) {
-      set = set | covered(each, slot, named);
+      set = set | (is_own(interest, slot) ? named : covered(each, slot, named));
       continue;
     }
     const bool is_heard = used.region == no_region || (used.entity != no_entity && each.is_placed ? each.inside.contains(used.entity) : overlaps(each, used.region));
-    if (is_heard) set = set | named;
+    if (is_heard || is_own(interest, slot)) set = set | named;
   }
   return object.owner == no_federate ? set & ownership_.owned_by_others(interest.federate, slot) : set;
 }

@@ -55,6 +55,7 @@ struct DeclaredInterest : FederateInterest {
   std::vector<Regional> regionals;
   std::vector<InteractionRegion> interactions;
   std::vector<RegionSlot> regions;      ///< by handle
+  im::Role role;
   bool is_changed = false;              ///< subscriptions differ from those of the last match
 };
 
@@ -90,6 +91,8 @@ class Interest : public DataDistribution {
   void object_deleted(ObjectSlot slot) override;
   void owner_changed(ObjectSlot slot) override;
   AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) override;
+  void set_role(ObjectSlot slot, const im::Role& role) override;
+  void set_federate_role(std::uint32_t federate, const im::Role& role) override;
 
   void match() override;
   const DistributionCounters& counters() const override { return counters_; }
@@ -114,7 +117,7 @@ class Interest : public DataDistribution {
   // Regions and who uses them (interest_regions.cpp).
   RegionSlot slot_of(std::uint32_t federate, RegionHandle region) const { return federates_[federate]->regions[region.value]; }
   RegionSlot take_region_slot();
-  void tell_filter(const DistributedRegion& region, RegionSlot slot);
+  void tell_filter(const DistributedRegion& region, RegionSlot slot, bool is_new);
   void take_entity(RegionSlot slot);
   void free_entity(RegionSlot slot);
   void use(RegionSlot region, ObjectSlot object);
@@ -125,6 +128,11 @@ class Interest : public DataDistribution {
   bool ranges_overlap(const DistributedRegion& a, const DistributedRegion& b, DimensionSet dimensions);
   bool regions_overlap(const DistributedRegion& a, const DistributedRegion& b);
   Range range(const DistributedRegion& region, DimensionHandle dimension) const;
+
+  // What the filter is told beside regions (interest_roles.cpp).
+  void tell_role(RegionSlot slot);
+  void tell_subscriber_role(const DeclaredInterest& interest, im::Subscriber subscriber);
+  bool is_own(const DeclaredInterest& interest, ObjectSlot slot) const;
 
   // Subscriptions and what follows from them (interest.cpp).
   Regional& regional(DeclaredInterest& interest, RegionSlot region);
@@ -151,6 +159,7 @@ class Interest : public DataDistribution {
   const ObjectTable& objects_;
   const Ownership& ownership_;
   std::unique_ptr<im::Filter> filter_;
+  const im::Traits traits_;                                      ///< of it
   DimensionHandle x_, y_;                                        ///< if the model has both
   DimensionSet plane_;                                           ///< of these
   std::vector<std::unique_ptr<DeclaredInterest>> federates_;     ///< by federate slot; null where nobody is
@@ -164,6 +173,7 @@ class Interest : public DataDistribution {
   std::vector<Use> uses_;                                        ///< by object
   std::unordered_map<ObjectSlot, std::vector<Association>> associations_;  ///< of objects that use `several`
   std::vector<ObjectSlot> changed_objects_;
+  std::vector<im::Role> roles_;                                  ///< by object; as long as the last that has one
   DistributionCounters counters_;
 };
 

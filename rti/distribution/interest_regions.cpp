@@ -41,10 +41,11 @@ bool Interest::modify_region(std::uint32_t federate, RegionHandle handle, const 
   DistributedRegion& region = regions_[slot];
   if (!region.is_planar) return false;
   if (region.is_committed && region.plane == bounds) return true;
+  const bool is_new = !region.is_committed;
   region.is_committed = true;
   region.plane = bounds;
   ++counters_.regions_changed;
-  tell_filter(region, slot);
+  tell_filter(region, slot, is_new);
   if (!unplaced_.empty() || unplaced_subscription_count_ > 0) mark_changed(slot);
   return true;
 }
@@ -63,19 +64,28 @@ void Interest::modify_region(std::uint32_t federate, RegionHandle handle, std::s
     return;
   }
   if (region.is_committed && std::ranges::equal(region.ranges, ranges)) return;
+  const bool is_new = !region.is_committed;
   region.is_committed = true;
   region.plane = plane;
   region.ranges.assign(ranges.begin(), ranges.end());
   ++counters_.regions_changed;
-  if (region.is_placed) tell_filter(region, slot);
+  if (region.is_placed) tell_filter(region, slot, is_new);
   mark_changed(slot);
 }
 
-void Interest::tell_filter(const DistributedRegion& region, RegionSlot slot) {
-  if (!region.objects.empty()) filter_->set_update_region(region.entity, region.plane);
+/// The filter ignores roles of whom it does not know yet, so who `is_new` to it is told of with his.
+void Interest::tell_filter(const DistributedRegion& region, RegionSlot slot, bool is_new) {
+  if (!region.objects.empty()) {
+    filter_->set_update_region(region.entity, region.plane);
+    if (is_new) tell_role(slot);
+  }
   if (region.subscription_count == 0) return;
-  for (const Regional& each : federates_[region.federate]->regionals)
-    if (each.region == slot) filter_->set_subscription_region(each.subscriber, region.plane);
+  const DeclaredInterest& interest = *federates_[region.federate];
+  for (const Regional& each : interest.regionals) {
+    if (each.region != slot) continue;
+    filter_->set_subscription_region(each.subscriber, region.plane);
+    if (is_new) tell_subscriber_role(interest, each.subscriber);
+  }
 }
 
 void Interest::mark_changed(RegionSlot slot) {
@@ -134,12 +144,14 @@ void Interest::free_entity(RegionSlot slot) {
 void Interest::use(RegionSlot region, ObjectSlot object) {
   if (regions_[region].objects.empty()) take_entity(region);
   regions_[region].objects.push_back(object);
+  tell_role(region);
 }
 
 void Interest::stop_using(RegionSlot region, ObjectSlot object) {
   auto& objects = regions_[region].objects;
   objects.erase(std::find(objects.begin(), objects.end(), object));
   if (objects.empty()) free_entity(region);
+  else tell_role(region);
 }
 
 std::vector<Interest::Association> Interest::associations_of(ObjectSlot object) const {

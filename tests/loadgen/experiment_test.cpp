@@ -83,6 +83,9 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, virtual"));
   EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
   EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc"));
+  EXPECT_THAT(complaint_about(minimal + "also_relevant = 'mates'"), HasSubstr("team, always"));
+  EXPECT_THAT(complaint_about(minimal + "schemes = 'always or aura'\nalways = ['bat', 'pucks']"), AllOf(StartsWith("dir/x.toml:4: always = 'pucks'"), HasSubstr("puck, bat, post")));
+  EXPECT_THAT(complaint_about(minimal + "always = ['bat', 'puck']"), HasSubstr("always = bat, puck changes nothing: neither schemes nor also_relevant name always"));
   EXPECT_THAT(complaint_about(minimal + "players = 'nobody'"), AllOf(HasSubstr("random, chaser"), HasSubstr("recorded key log")));
   EXPECT_THAT(complaint_about(minimal + "schemes = ['grid']\nbaseline_scheme = 'none'"), AllOf(HasSubstr(":4: baseline_scheme = 'none'"), HasSubstr("is compared: grid")));
   EXPECT_THAT(complaint_about(minimal + "server_cores = 3"), HasSubstr("from 1 to 2"));

@@ -34,6 +34,23 @@ TEST(Relevance, ABoxThatTouchesTheSquareIsRelevantAndOneAHairBeyondIsNot) {
   EXPECT_EQ(text_of({RelevanceArea::Shape::square, 1.58}), "square of 3.16 m around the bat, touched by the entity's box");
 }
 
+TEST(Relevance, MayTakeInTheOwnSideAndWhatIsAlwaysRelevant) {
+  using enum physics::BodyKind;
+  using game::Team;
+  RelevanceArea area = square;
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::left, bat, Team::left));
+  area.has_team = true;
+  EXPECT_TRUE(is_relevant_anywhere(area, Team::left, bat, Team::left));
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::left, bat, Team::right));
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::none, bat, Team::none)) << "of no team, not of one that is called none";
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::left, puck, Team::none));
+  area.always.emplace().add(puck);
+  area.always->add(post);
+  EXPECT_TRUE(is_relevant_anywhere(area, Team::left, puck, Team::none));
+  EXPECT_FALSE(is_relevant_anywhere(area, Team::left, bat, Team::right));
+  EXPECT_EQ(text_of(area), "square of 2 m around the bat, touched by the entity's box, or a bat of the player's team, or any puck or post");
+}
+
 TEST(Surroundings, FindWhatLookingAtEachEntityFinds) {
   game::RandomStream random(7);
   std::vector<Placed> placed;

@@ -23,6 +23,7 @@
 namespace rink::loadgen {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 using test::text_of;
@@ -184,6 +185,26 @@ TEST_F(VirtualRunTest, WhatNeedsAClockOrAKernelIsAbsentAndNoFault) {
   const nlohmann::json server = report(first_cell(), "server");
   EXPECT_GT(server["physics_events"], 0);
   EXPECT_EQ(server["total_bytes_received"], report(first_cell(), "bots")["total_bytes_sent"].get<std::uint64_t>() + 6 * 5) << "the bots take their leave after their report";
+}
+
+TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionThatSaysSo) {
+  experiment_.clients = {12};
+  experiment_.relevance = Relevance::disc;
+  experiment_.also_relevant = {"team", "always"};
+  settings_.wants_truth = true;
+  const auto truth = [this](const std::string& scheme) {
+    Cell cell = first_cell();
+    cell.scheme = scheme;
+    return run(cell).truth;
+  };
+  const TruthFigures all = truth("aura or team or always"), near = truth("aura"), mates = truth("team"), own = truth("owner");
+  EXPECT_THAT(all.relevance, AllOf(HasSubstr("disc of"), HasSubstr("or a bat of the player's team, or any post")));
+  EXPECT_GT(all.filter_recall.value_or(0.0), 0.98) << "what is missing is as old as a decision";
+  EXPECT_GT(all.filter_precision.value_or(0.0), 0.8) << "the rim of boxes that reach into the disc";
+  EXPECT_LT(near.filter_recall.value_or(1.0), all.filter_recall.value_or(0.0) - 0.2) << "five of his side, and the posts, are elsewhere";
+  EXPECT_EQ(mates.filter_precision, 1.0);
+  EXPECT_LT(mates.filter_recall.value_or(1.0), 0.8);
+  EXPECT_FALSE(own.filter_precision) << "his own bat is in no count, and nothing else is chosen";
 }
 
 TEST_F(VirtualRunTest, AnInterruptEndsItWithoutARecord) {

@@ -72,11 +72,18 @@ TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
 }
 
 TEST(ServeCommand, RefusesASizeOfCellsForASchemeWithoutAny) {
-  for (const char* scheme : {"none", "region", "aura"}) {
+  for (const char* scheme : {"none", "region", "aura", "grid(cell_size=2) or region"}) {
     const Ended ended = serve({"--scene", "match", "--scheme", scheme, "--cell-size", "0.5"});
     EXPECT_EQ(ended.status, 2);
     EXPECT_THAT(ended.words, testing::AllOf(HasSubstr(std::string("--cell-size: the scheme ") + scheme + " has no cells"), HasSubstr("grid, hex")));
   }
+}
+
+TEST(ServeCommand, RefusesWhatIsAlwaysRelevantToASchemeThatDoesNotAsk) {
+  const Ended ended = serve({"--scene", "match", "--scheme", "aura or team", "--always", "puck,post"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.words, HasSubstr("--always: the scheme aura or team does not name always"));
+  EXPECT_THAT(serve({"--scheme", "always", "--always", "pucks"}).words, HasSubstr("--always: pucks not in {puck,bat,post}"));
 }
 
 TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWhereTheyContradict) {

@@ -1,0 +1,17 @@
+// Teams are the sides of the table, owners the players by number.
+#include "game/net/acquaint.h"
+
+namespace rink::game {
+namespace {
+
+std::uint32_t team_number(Team team) { return team == Team::none ? im::Role::none : static_cast<std::uint32_t>(team); }
+
+}  // namespace
+
+void acquaint(const Server& server, rti::FederationExecution& federation) {
+  for (const auto& [object, entity] : server.registered())
+    federation.set_object_role(object, {.team = team_number(entity.team), .owner = entity.player.value_or(im::Role::none), .is_always_relevant = server.is_always_relevant(entity.kind)});
+  for (const auto& [federate, player] : server.seated()) federation.set_federate_role(federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team), .owner = player});
+}
+
+}  // namespace rink::game

@@ -1,0 +1,13 @@
+// What the game tells the RTI's filter beside regions.
+#pragma once
+
+#include "game/net/server.h"
+#include "rti/federation_execution.h"
+
+namespace rink::game {
+
+/// To be called between the last `publish`, once the RTI has heard it, and the next match: says of the objects and players which that made known of what team they are, whose they
+/// are, and what is always relevant (docs/im.md, "Roles"). What was said before stays, so a tick in which nobody comes costs nothing.
+void acquaint(const Server& server, rti::FederationExecution& federation);
+
+}  // namespace rink::game

@@ -1,0 +1,43 @@
+// Which kinds of bodies are relevant to everybody, wherever they are: what the scheme `always` lets through.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "game/model/scene.h"
+
+namespace rink::game {
+
+class RelevantKinds {
+ public:
+  void add(physics::BodyKind kind) { has_[static_cast<std::size_t>(kind)] = true; }
+  bool has(physics::BodyKind kind) const { return has_[static_cast<std::size_t>(kind)]; }
+
+ private:
+  std::array<bool, 3> has_{};
+};
+
+/// How they are called, by number.
+inline const std::vector<std::string> relevant_kind_names{"puck", "bat", "post"};
+
+/// What a player of `scene` expects if nothing is said: posts, which never move, and the pucks of a match that ends at a number of goals.
+inline RelevantKinds relevant_kinds_of(const Scene& scene) {
+  RelevantKinds kinds;
+  kinds.add(physics::BodyKind::post);
+  if (scene.rules.goals_to_win) kinds.add(physics::BodyKind::puck);
+  return kinds;
+}
+
+/// Those called `names`, others apart; those of `scene` if there are none.
+inline RelevantKinds relevant_kinds_of(const Scene& scene, const std::vector<std::string>& names) {
+  if (names.empty()) return relevant_kinds_of(scene);
+  RelevantKinds kinds;
+  for (std::size_t kind = 0; kind < relevant_kind_names.size(); ++kind)
+    for (const std::string& name : names)
+      if (name == relevant_kind_names[kind]) kinds.add(static_cast<physics::BodyKind>(kind));
+  return kinds;
+}
+
+}  // namespace rink::game
