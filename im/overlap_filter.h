@@ -1,4 +1,4 @@
-// Interest as overlap of closed rectangles, which the rectangle-like schemes share.
+// Interest as overlap of closed rectangles, or of discs with rectangles, which the schemes share that are nothing else.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace rink::im {
 /// A scheme that maps what it is given to other rectangles (`grid`: to cells) derives from it and overrides the two setters. Keeps no pairs.
 class OverlapFilter : public Filter {
  public:
-  /// `world` is where most entities are, in the derived scheme's coordinates.
-  explicit OverlapFilter(const Region& world, Instructions instructions = Instructions::best) : join_(world, instructions) {}
+  /// `world` is where most entities are, in the derived scheme's coordinates; `shape` is what of a subscription counts.
+  explicit OverlapFilter(const Region& world, Instructions instructions = Instructions::best, Shape shape = Shape::rectangle) : join_(world, instructions, shape) {}
 
   void set_update_region(Entity entity, const Region& region) override;
   void remove_entity(Entity entity) override;

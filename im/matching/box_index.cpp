@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "im/matching/ring.h"
+
 namespace rink::im {
 namespace {
 
@@ -118,7 +120,8 @@ void BoxIndex::follow(const RegionHistory& regions, CellLevel& level, std::size_
   level.x.drift += shift_x, level.y.drift += shift_y;
 }
 
-std::size_t BoxIndex::collect(const CellLevel& level, const CellQuery& query, Buffer<Stretch>& stretches) const {
+template <class Query>
+std::size_t BoxIndex::collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const {
   std::size_t count = stretches.size(), candidates = 0;
   stretches.reserve(count + 2 * static_cast<std::size_t>(query.rows.last - query.rows.first + 1));
   Stretch* out = stretches.data();
@@ -141,6 +144,14 @@ std::size_t BoxIndex::find_overlaps(const FloatBox& box, Buffer<Stretch>& stretc
 std::size_t BoxIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
   for (const CellLevel& level : levels_) candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+  return candidates;
+}
+
+std::size_t BoxIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
+  const Ring ring(probe.before, probe.now);
+  if (!ring.is_plain()) return find_overlaps(hull_of(probe.before, probe.now), stretches);
+  std::size_t candidates = 0;
+  for (const CellLevel& level : levels_) candidates += collect(level, RingQuery(level, ring), stretches);
   return candidates;
 }
 

@@ -43,6 +43,8 @@ class BoxIndex {
   std::size_t find_overlaps(const FloatBox& box, Buffer<Stretch>& stretches) const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells well inside both its places hold none.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+  /// The same for who asks what touches his disc.
+  std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
 
   std::size_t bytes() const;
 
@@ -53,7 +55,8 @@ class BoxIndex {
   void sort();
   FloatBox hull(std::size_t staged) const;
   void follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end);
-  std::size_t collect(const CellLevel& level, const CellQuery& query, Buffer<Stretch>& stretches) const;
+  template <class Query>
+  std::size_t collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const;
 
   Region world_;
   Projection projection_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct CellAxis {
   CellRange within(float low, float high) const {
     const float earliest = low + drift + drift_margin(low), latest = high - widest - drift - margin(high);
     return earliest < latest ? CellRange{cell(earliest) + 1, cell(latest) - 1} : CellRange{0, -1};
+  }
+  /// Below and above all edges in a cell and what reaches out of it.
+  float lowest_in(std::int32_t cell) const { return cell == 0 ? -std::numeric_limits<float>::infinity() : static_cast<float>(cell) / cells_per_metre * (1.0f - 0x1p-20f) - drift * 1.01f; }
+  float highest_in(std::int32_t cell) const {
+    return cell == last ? std::numeric_limits<float>::infinity() : (static_cast<float>(cell) + 1.0f) / cells_per_metre * (1.0f + 0x1p-20f) + (widest + drift) * 1.01f;
   }
 
  private:

@@ -19,19 +19,39 @@ struct Exact {
   const RegionHistory &askers, &asked;
 };
 
+template <Question question>
+bool is_met(const Region& asker, const Region& asked) {
+  if constexpr (question == Question::rectangles) return overlap(asker, asked);
+  return question == Question::of_discs ? touches_disc(asker, asked) : touches_disc(asked, asker);
+}
+
+template <Question question>
 Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t asked) {
   const auto& exact = *static_cast<const Exact*>(context);
   const Motion &a = exact.askers[asker], &b = exact.asked[asked];
-  const bool is_in = overlap(a.now, b.now);
-  if (is_in == overlap(a.before, b.before)) return Verdict::no;
+  const bool is_in = is_met<question>(a.now, b.now);
+  if (is_in == is_met<question>(a.before, b.before)) return Verdict::no;
   return is_in ? Verdict::entered : Verdict::match;
 }
 
 /// Empty lanes tie with a box as large as numbers go. Those who moved as well are met elsewhere.
+template <Question question>
 Verdict judge_resting(const void* context, std::uint32_t asker, std::uint32_t asked) {
   const auto& exact = *static_cast<const Exact*>(context);
-  return asked == LiveIndex::nobody || exact.asked.has_moved(asked) ? Verdict::no : judge_moved(context, asker, asked);
+  return asked == LiveIndex::nobody || exact.asked.has_moved(asked) ? Verdict::no : judge_moved<question>(context, asker, asked);
 }
+
+using Judge = Verdict (*)(const void*, std::uint32_t, std::uint32_t);
+
+Judge moved_judge(Question question) {
+  return question == Question::rectangles ? judge_moved<Question::rectangles> : question == Question::of_discs ? judge_moved<Question::of_discs> : judge_moved<Question::about_discs>;
+}
+Judge resting_judge(Question question) {
+  return question == Question::rectangles ? judge_resting<Question::rectangles> : question == Question::of_discs ? judge_resting<Question::of_discs> : judge_resting<Question::about_discs>;
+}
+
+Question of_subscribers(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::of_discs; }
+Question of_entities(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::about_discs; }
 
 /// Grows a side that is none.
 Region with_area(Region world) {
@@ -46,7 +66,7 @@ Region with_area(Region world) {
 
 }  // namespace
 
-ChangeJoin::ChangeJoin(const Region& world, Instructions instructions) : world_(with_area(world)), join_(instructions) {}
+ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape) : world_(with_area(world)), shape_(shape), join_(instructions) {}
 
 std::span<const Change> ChangeJoin::find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
                                          std::span<const std::uint32_t> moved_subscribers) {
@@ -114,12 +134,13 @@ template <class Askers>
 void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers) {
   const Exact exact{subscribers.regions, entities.regions};
   join_.clear();
-  join_.add_changes(asked, askers, {!(asked.is_exact() && askers.is_exact()), judge_moved, &exact});
+  const Question question = of_subscribers(shape_);
+  join_.add_changes(asked, askers, {question != Question::rectangles || !(asked.is_exact() && askers.is_exact()), moved_judge(question), &exact}, question);
   pairs_tested_ += join_.candidate_count();
 }
 
 /// Asks those of the other side that rest; those that moved may be found too, where they were.
-void ChangeJoin::ask_resting(const Side& askers, const Side& asked) {
+void ChangeJoin::ask_resting(const Side& askers, const Side& asked, Question question) {
   LiveIndex& live = asked.standing.live;
   if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions);
   asked.standing.is_live = true;
@@ -128,17 +149,17 @@ void ChangeJoin::ask_resting(const Side& askers, const Side& asked) {
   const Exact exact{askers.regions, asked.regions};
   join_.share_with(askers.moved.size() < shared_movers_min ? nullptr : worker_);
   join_.clear();
-  join_.add_changes(live, probes_, {!(probes_.is_exact() && live.is_exact()), judge_resting, &exact});
+  join_.add_changes(live, probes_, {question != Question::rectangles || !(probes_.is_exact() && live.is_exact()), resting_judge(question), &exact}, question);
   pairs_tested_ += join_.candidate_count();
 }
 
 void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
   if (!entities.moved.empty()) {
-    ask_resting(entities, subscribers);
+    ask_resting(entities, subscribers, of_entities(shape_));
     changes_.add_by_entity(join_, subscribers.regions);
   }
   if (!subscribers.moved.empty()) {
-    ask_resting(subscribers, entities);
+    ask_resting(subscribers, entities, of_subscribers(shape_));
     changes_.add_by_subscriber(join_, entities.regions);
   }
   if (!entities.moved.empty() && !subscribers.moved.empty()) {

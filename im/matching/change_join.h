@@ -6,6 +6,7 @@
 
 #include "im/matching/box_index.h"
 #include "im/matching/change_list.h"
+#include "im/matching/disc.h"
 #include "im/matching/join.h"
 #include "im/matching/live_index.h"
 #include "im/region_history.h"
@@ -17,7 +18,7 @@ namespace rink::im {
 /// are kept in place, and are joined among themselves.
 class ChangeJoin {
  public:
-  explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best);
+  explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best, Shape shape = Shape::rectangle);
 
   /// Every change, ordered by (subscriber, entity); `moved_...` are those whose place now is not the one before, ascending. Valid until the next call.
   std::span<const Change> find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
@@ -57,11 +58,12 @@ class ChangeJoin {
   void join_movers(const Side& entities, const Side& subscribers);
   void stage(const Side& side);
   void place(const Side& side);
-  void ask_resting(const Side& askers, const Side& asked);
+  void ask_resting(const Side& askers, const Side& asked, Question question);
   template <class Askers>
   void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
 
   Region world_;
+  Shape shape_;
   Standing entities_, subscribers_;
   ProbeList probes_;
   Join join_;

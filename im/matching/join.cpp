@@ -72,13 +72,17 @@ void Join::add_overlaps(const BoxIndex& index, const BoxIndex& askers, const Tie
 }
 
 template <class Index, class Askers>
-void Join::add_changes(const Index& index, const Askers& askers, const TieJudge& judge) {
-  add(index, askers, judge, scans_.changes, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_changes(probe, stretches); });
+void Join::add_changes(const Index& index, const Askers& askers, const TieJudge& judge, Question question) {
+  if (question == Question::of_discs)
+    return add(index, askers, judge, scans_.changes_of_discs, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_disc_changes(probe, stretches); });
+  // A subscription that lies inside of a box has its disc there too, so what rectangles leave out may be left out of discs.
+  const Scan scan = question == Question::rectangles ? scans_.changes : scans_.changes_about_discs;
+  add(index, askers, judge, scan, [&](const Probe& probe, Buffer<Stretch>& stretches) { return index.find_changes(probe, stretches); });
 }
 
-template void Join::add_changes(const BoxIndex&, const BoxIndex&, const TieJudge&);
-template void Join::add_changes(const BoxIndex&, const ProbeList&, const TieJudge&);
-template void Join::add_changes(const LiveIndex&, const ProbeList&, const TieJudge&);
+template void Join::add_changes(const BoxIndex&, const BoxIndex&, const TieJudge&, Question);
+template void Join::add_changes(const BoxIndex&, const ProbeList&, const TieJudge&, Question);
+template void Join::add_changes(const LiveIndex&, const ProbeList&, const TieJudge&, Question);
 
 std::size_t Join::Part::bytes() const {
   return sizeof(Stretch) * stretches.capacity() + sizeof(std::uint32_t) * (askers.capacity() + found.capacity()) + sizeof(std::size_t) * ends.capacity();

@@ -20,9 +20,9 @@ class Join {
   void share_with(Worker* worker) { worker_ = worker; }
   /// All pairs of `askers` and `index` that overlap now.
   void add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
-  /// All pairs whose overlap before and now differ. Index: BoxIndex or LiveIndex; askers: BoxIndex or ProbeList.
+  /// All pairs whose answer to `question` before and now differ. Index: BoxIndex or LiveIndex; askers: BoxIndex or ProbeList.
   template <class Index, class Askers>
-  void add_changes(const Index& index, const Askers& askers, const TieJudge& judge);
+  void add_changes(const Index& index, const Askers& askers, const TieJudge& judge, Question question);
 
   std::size_t asker_count() const { return own_.askers.size(); }
   std::uint32_t asker(std::size_t i) const { return own_.askers[i]; }

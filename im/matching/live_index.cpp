@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "im/matching/ring.h"
+
 namespace rink::im {
 namespace {
 
@@ -176,21 +178,35 @@ Candidates LiveIndex::candidates() const {
   return {columns, columns, first.ids, stride};
 }
 
+template <class Query>
+std::size_t LiveIndex::collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const {
+  std::size_t candidates = 0;
+  query.for_each_run(level, [&](std::uint32_t first, std::uint32_t last) {
+    stretches.push_back({first * stride, (last + 1) * stride});
+    for (std::uint32_t cell = first; cell <= last; ++cell) {
+      candidates += heads_[cell].count;
+      for (std::uint32_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
+      if (heads_[cell].has_more) {
+        const Block& head = blocks_[cell];
+        stretches.push_back({head.run * stride, (head.run + head.run_size) * stride});
+        candidates += head.run_size * lanes;
+      }
+    }
+  });
+  return candidates;
+}
+
 std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
+  for (const CellLevel& level : levels_) candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+  return candidates;
+}
+
+std::size_t LiveIndex::find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
+  const Ring ring(probe.before, probe.now);
+  std::size_t candidates = 0;
   for (const CellLevel& level : levels_)
-    cells_changed(level, probe.before, probe.now).for_each_run(level, [&](std::uint32_t first, std::uint32_t last) {
-      stretches.push_back({first * stride, (last + 1) * stride});
-      for (std::uint32_t cell = first; cell <= last; ++cell) {
-        candidates += heads_[cell].count;
-        for (std::uint32_t line = 0; line < sizeof(Block); line += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[cell]) + line);
-        if (heads_[cell].has_more) {
-          const Block& head = blocks_[cell];
-          stretches.push_back({head.run * stride, (head.run + head.run_size) * stride});
-          candidates += head.run_size * lanes;
-        }
-      }
-    });
+    candidates += ring.is_plain() ? collect(level, RingQuery(level, ring), stretches) : collect(level, cells_touched(level, hull_of(probe.before, probe.now)), stretches);
   return candidates;
 }
 

@@ -32,6 +32,8 @@ class LiveIndex {
   Candidates candidates() const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes those are.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+  /// The same for who asks what touches his disc.
+  std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
   std::size_t bytes() const;
 
  private:
@@ -52,6 +54,8 @@ class LiveIndex {
     std::uint8_t has_more : 1;
   };
 
+  template <class Query>
+  std::size_t collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const;
   FloatBox box(std::uint32_t place) const;
   void set(std::uint32_t place, const FloatBox& box);
   void set(std::uint32_t place, std::uint32_t id, const FloatBox& box);

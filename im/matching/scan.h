@@ -53,9 +53,13 @@ struct TieJudge {
 using Scan = std::size_t (*)(const Candidates& candidates, std::span<const Probe> probes, const Stretch* stretches, const TieJudge& judge, std::uint32_t* found,
                              std::uint32_t* ends);
 
+/// What is asked about two boxes: whether they overlap, or whether one touches the disc that the other holds (disc.h): the asker's disc, or the candidate's.
+enum class Question : std::uint8_t { rectangles, of_discs, about_discs };
+
 struct Scans {
   Scan overlaps;  ///< matches: `now` overlaps `now`
   Scan changes;   ///< matches: overlap of `before` with `before` and of `now` with `now` differ; with `entered_bit`
+  Scan changes_of_discs, changes_about_discs;  ///< the same for discs; the judge must decide exactly, for it is asked wherever distances are in doubt
   const char* name;
 };
 

@@ -3,6 +3,7 @@
 
 #include "im/overlap_filter.h"
 #include "tests/im/layouts.h"
+#include "tests/im/recount.h"
 
 namespace rink::im {
 namespace {
@@ -35,11 +36,11 @@ class Scene {
     for (std::uint32_t i = 0; i < entities_.size(); ++i) filter.set_update_region(i, entities_[i]);
     for (std::uint32_t i = 0; i < subscribers_.size(); ++i) filter.set_subscription_region(i, subscribers_[i]);
   }
-  /// All overlaps, subscriber by subscriber.
-  std::vector<bool> recount() const {
+  /// Who meets whom, subscriber by subscriber.
+  std::vector<bool> recount(Shape shape) const {
     std::vector<bool> table;
     for (const Region& s : subscribers_)
-      for (const Region& u : entities_) table.push_back(!(u.high_x < s.low_x || s.high_x < u.low_x || u.high_y < s.low_y || s.high_y < u.low_y));
+      for (const Region& u : entities_) table.push_back(shape == Shape::disc ? disc_touches(s, u) : overlap_closed(s, u));
     return table;
   }
   std::size_t entity_count() const { return entities_.size(); }
@@ -53,11 +54,11 @@ class Scene {
 /// A hundred, a tenth and a thousandth of all, in a sequence that goes from each to each: rebuilding, updating in place, and taking up again what was left.
 constexpr std::array shares{1.0, 0.02, 0.05, 0.3, 0.001, 0.1, 1.0, 1.0, 0.01, 0.0, 0.2};
 
-void follow(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count, std::uint32_t subscriber_count, int rounds) {
+void follow(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count, std::uint32_t subscriber_count, int rounds, Shape shape) {
   SCOPED_TRACE(std::string(layout.name) + " with seed " + std::to_string(seed));
   Scene scene(layout, seed, entity_count, subscriber_count);
   const Region world{0.0, 0.0, side, side};
-  OverlapFilter best(world), scalar(world, Instructions::scalar), lost({1e6, 1e6, 1e6 + 1.0, 1e6 + 1.0});
+  OverlapFilter best(world, Instructions::best, shape), scalar(world, Instructions::scalar, shape), lost({1e6, 1e6, 1e6 + 1.0, 1e6 + 1.0}, Instructions::best, shape);
   std::vector<bool> known(std::size_t{entity_count} * subscriber_count);
   for (int round = 0; round < rounds; ++round)
     for (const double share : shares) {
@@ -71,22 +72,26 @@ void follow(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count
         ASSERT_NE(known[place], change.transition == Transition::entered) << "subscriber " << change.subscriber << " entity " << change.entity;
         known[place] = !known[place];
       }
-      ASSERT_EQ(known, scene.recount()) << "after a share of " << share;
+      ASSERT_EQ(known, scene.recount(shape)) << "after a share of " << share;
     }
 }
 
 TEST(ChangeJoin, FollowsManyThroughEveryShareOfMovers) {
-  for (const Layout& layout : layouts) follow(layout, 1, 700, 300, 2);
+  for (const Layout& layout : layouts) follow(layout, 1, 700, 300, 2, Shape::rectangle);
+}
+TEST(ChangeJoin, FollowsManyThroughDiscs) {
+  for (const Layout& layout : layouts) follow(layout, 5, 300, 200, 2, Shape::disc);
 }
 /// More than the engine takes in the order of their ids.
-TEST(ChangeJoin, FollowsSubscribersInTheOrderOfTheirPlaces) { follow(layouts[0], 2, 200, 5'000, 1); }
+TEST(ChangeJoin, FollowsSubscribersInTheOrderOfTheirPlaces) { follow(layouts[0], 2, 200, 5'000, 1, Shape::rectangle); }
+TEST(ChangeJoin, FollowsDiscsInTheOrderOfTheirPlaces) { follow(layouts[1], 6, 50, 5'000, 1, Shape::disc); }
 
 /// For as long as nobody goes far, nobody is binned anew. Who was forgotten is someone new.
-void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count, std::uint32_t subscriber_count, int ticks) {
+void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count, std::uint32_t subscriber_count, int ticks, Shape shape) {
   SCOPED_TRACE(std::string(layout.name) + " with seed " + std::to_string(seed));
   Scene scene(layout, seed, entity_count, subscriber_count);
   const Region world{0.0, 0.0, side, side};
-  OverlapFilter best(world), scalar(world, Instructions::scalar);
+  OverlapFilter best(world, Instructions::best, shape), scalar(world, Instructions::scalar, shape);
   std::vector<bool> known(std::size_t{entity_count} * subscriber_count);
   for (int tick = 0; tick < ticks; ++tick) {
     if (scene.drift(tick % 3)) {
@@ -98,14 +103,36 @@ void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count,
     const auto changes = best.match(), plain = scalar.match();
     ASSERT_TRUE(std::equal(changes.begin(), changes.end(), plain.begin(), plain.end())) << "the scalar path differs";
     for (const Change& change : changes) known[change.subscriber * scene.entity_count() + change.entity] = change.transition == Transition::entered;
-    ASSERT_EQ(known, scene.recount()) << "at tick " << tick;
+    ASSERT_EQ(known, scene.recount(shape)) << "at tick " << tick;
   }
 }
 
 TEST(ChangeJoin, FollowsManyWhoDriftSlowly) {
-  for (const Layout& layout : layouts) drift(layout, 3, 700, 300, 60);
+  for (const Layout& layout : layouts)
+    for (const Shape shape : {Shape::rectangle, Shape::disc}) drift(layout, 3, 300, 150, 40, shape);
 }
-TEST(ChangeJoin, FollowsManySubscribersWhoDriftSlowly) { drift(layouts[1], 4, 100, 5'000, 20); }
+TEST(ChangeJoin, FollowsManySubscribersWhoDriftSlowly) { drift(layouts[1], 4, 50, 5'000, 15, Shape::rectangle); }
+
+/// A point at (3, 4) is on the circle of radius 5, at any scale and wherever the middle is; the least step that its coordinates know is off it.
+TEST(ChangeJoin, SeesAPointOnACircleAsOneAtEveryScale) {
+  for (const Instructions instructions : {Instructions::best, Instructions::scalar})
+    for (int exponent = -80; exponent <= 80; exponent += 4)
+      for (const double far : {0.0, 1'000.0, 0x1p20}) {
+        const double unit = std::ldexp(1.0, exponent), x = far * unit, y = -2.0 * far * unit, off = unit * 0x1p-20;
+        OverlapFilter filter({-10.0, -10.0, 10.0, 10.0}, instructions, Shape::disc);
+        const auto at = [&](double dx, double dy) { return Region{x + dx, y + dy, x + dx, y + dy}; };
+        const auto match = [&](double dx, double dy) {
+          for (Entity entity = 0; entity < 20; ++entity) filter.set_update_region(entity, at(entity < 10 ? dx : -dx, entity < 10 ? dy : -dy));
+          return filter.match().size();
+        };
+        filter.set_subscription_region(0, {x - 5.0 * unit, y - 5.0 * unit, x + 5.0 * unit, y + 5.0 * unit});
+        ASSERT_EQ(match(3.0 * unit, 4.0 * unit), 20u) << exponent << " from " << far;
+        ASSERT_EQ(match(3.0 * unit, 4.0 * unit + off), 20u) << exponent << " from " << far;
+        ASSERT_EQ(match(4.0 * unit + off, 3.0 * unit), 0u) << exponent << " from " << far;
+        ASSERT_EQ(match(4.0 * unit - off, 3.0 * unit), 20u) << exponent << " from " << far;
+        ASSERT_EQ(match(3.0 * unit, 4.0 * unit), 0u) << exponent << " from " << far;
+      }
+}
 
 /// What moves is known where it was binned until it is a quarter of a column away.
 TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
@@ -128,15 +155,17 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
     regions.settle();
     tell(0.01);
     ASSERT_TRUE(index.follow(regions)) << "after " << tick;
-    Buffer<Stretch> stretches;
-    const FloatBox asked{3.0f, 4.0f, 9.0f, 8.0f};
-    index.find_changes({asked, asked, 0, 0}, stretches);
-    std::vector<bool> is_candidate(regions.size());
-    for (const Stretch& stretch : stretches.span())
-      for (std::uint32_t place = stretch.first; place < stretch.end; ++place) is_candidate[index.ids()[place]] = true;
-    for (std::uint32_t id = 0; id < regions.size(); ++id) {
-      const bool was_in = overlap(regions[id].before, {3.0, 4.0, 9.0, 8.0}), is_in = overlap(regions[id].now, {3.0, 4.0, 9.0, 8.0});
-      ASSERT_TRUE(was_in == is_in || is_candidate[id]) << id;
+    for (int question = 0; question < 100; ++question) {
+      const float x = static_cast<float>(between(random, 0.0, side)), y = static_cast<float>(between(random, 0.0, side));
+      const FloatBox asked{x, y, x + 10.0f, y + 10.0f};
+      const Region place_of_asker{asked.low_x, asked.low_y, asked.high_x, asked.high_y};
+      Buffer<Stretch> stretches;
+      index.find_changes({asked, asked, 0, 0}, stretches);
+      std::vector<bool> is_candidate(regions.size());
+      for (const Stretch& stretch : stretches.span())
+        for (std::uint32_t place = stretch.first; place < stretch.end; ++place) is_candidate[index.ids()[place]] = true;
+      for (std::uint32_t id = 0; id < regions.size(); ++id)
+        ASSERT_TRUE(overlap(regions[id].before, place_of_asker) == overlap(regions[id].now, place_of_asker) || is_candidate[id]) << "box " << id << " at tick " << tick;
     }
   }
   regions.settle();
@@ -147,7 +176,7 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
 TEST(ChangeJoinLong, DriftsThroughEveryLayout) {
   for (std::uint64_t seed = 10; seed < 40; ++seed)
     for (const Layout& layout : layouts) {
-      drift(layout, seed, 700, 300, 200);
+      for (const Shape shape : {Shape::rectangle, Shape::disc}) drift(layout, seed, 700, 300, 100, shape);
       if (testing::Test::HasFatalFailure()) return;
     }
 }
@@ -155,7 +184,7 @@ TEST(ChangeJoinLong, DriftsThroughEveryLayout) {
 TEST(ChangeJoinLong, FollowsManyThroughEveryShareOfMovers) {
   for (std::uint64_t seed = 10; seed < 60; ++seed)
     for (const Layout& layout : layouts) {
-      follow(layout, seed, static_cast<std::uint32_t>(10 * seed), static_cast<std::uint32_t>(700 - 10 * seed), 8);
+      follow(layout, seed, static_cast<std::uint32_t>(10 * seed), static_cast<std::uint32_t>(700 - 10 * seed), 8, seed % 2 == 0 ? Shape::rectangle : Shape::disc);
       if (testing::Test::HasFatalFailure()) return;
     }
 }

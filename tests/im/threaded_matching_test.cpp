@@ -60,8 +60,9 @@ TEST(ThreadedMatching, ABatchIsTheSameWithASecondCore) {
 
 TEST(ThreadedMatching, ChangesAreTheSameWithASecondCoreWhateverPartMoves) {
   for (const std::size_t subscriber_count : {1'000u, 12'000u}) {
+    const Shape shape = subscriber_count == 1'000u ? Shape::disc : Shape::rectangle;
     rti::SecondCore second_core;
-    OverlapFilter alone(world), shared(world);
+    OverlapFilter alone(world, Instructions::best, shape), shared(world, Instructions::best, shape);
     shared.share_with(&second_core);
     std::mt19937_64 random(5);
     auto entities = regions(12'000, 1), subscribers = regions(subscriber_count, 2);
