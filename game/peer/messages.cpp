@@ -1,6 +1,8 @@
 // Messages to bytes and back, through the stream that snapshots of worlds go through.
 #include "game/peer/messages.h"
 
+#include <array>
+
 #include "game/peer/mirror.h"
 #include "game/peer/session.h"
 #include "game/physics/snapshot_stream.h"
@@ -20,6 +22,20 @@ class Measure : public physics::SnapshotStream<Measure> {
 
  private:
   std::size_t byte_count_ = 0;
+};
+
+/// Puts words into room that is there.
+class Scribe : public physics::SnapshotStream<Scribe> {
+ public:
+  explicit Scribe(std::uint8_t* to) : to_(to) {}
+  bool word(std::uint64_t& value, int byte_count) {
+    for (int byte = 0; byte < byte_count; ++byte) to_[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
+    return to_ += byte_count, true;
+  }
+  static std::uint64_t count_max() { return 0xffffffff; }
+
+ private:
+  std::uint8_t* to_;
 };
 
 template <class Message>
@@ -57,10 +73,11 @@ bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_wh
 bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }
 
 std::size_t measured(const Arrivals& m) {
-  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), hold = size_of<Hold>(), key = size_of<Key>(), glimpse = size_of<Glimpse>(), puck = size_of<Glimpse::Puck>();
+  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), flown = size_of<Flown>(), hold = size_of<Hold>(), key = size_of<Key>();
+  static const std::size_t glimpse = size_of<Glimpse>(), puck = size_of<Glimpse::Puck>();
   std::size_t seen = m.glimpses.size() * glimpse;
   for (const Glimpse& shown : m.glimpses) seen += shown.pucks.size() * puck;
-  return empty + m.bodies.size() * body + m.holds.size() * hold + m.keys.size() * key + seen + checksum_size;
+  return empty + m.bodies.size() * body + m.flown.size() * flown + m.holds.size() * hold + m.keys.size() * key + seen + checksum_size;
 }
 std::size_t measured(const Claims& m) {
   static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>(), press = size_of<Press>();
@@ -72,5 +89,12 @@ std::size_t measured(const Verdict& m) {
 }
 
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }
+
+bool are_same(BodyState a, BodyState b) {
+  std::array<std::uint8_t, sizeof(BodyState)> bytes_a{}, bytes_b{};  // no number takes more room as bytes
+  Scribe scribe_a(bytes_a.data()), scribe_b(bytes_b.data());
+  exchange(scribe_a, a), exchange(scribe_b, b);
+  return bytes_a == bytes_b;
+}
 
 }  // namespace rink::peer

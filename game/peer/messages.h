@@ -45,6 +45,17 @@ struct Glimpse {
   std::vector<Puck> pucks;   ///< the nearest of those that the owner has, its ghosts among them, nearest first
 };
 
+/// What is new of a body to which nothing but free impacts happened: all else of its state is as it was when the window began.
+struct Flown {
+  std::uint32_t number = 0;
+  Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
+  double time = 0.0;                               ///< of the last impact [s]
+
+  static Flown of(std::uint32_t number, const physics::Flight<double>& f) { return {number, {f.x, f.y}, {f.vx, f.vy}, f.time}; }
+  bool is_as(const physics::Flight<double>& f) const { return position == Vector2(f.x, f.y) && velocity == Vector2(f.vx, f.vy) && time == f.time; }
+  void write_to(physics::Flight<double>& f) const { f.x = position.x(), f.y = position.y(), f.vx = velocity.x(), f.vy = velocity.y(), f.time = time; }
+};
+
 /// At a window's start: bodies of the sender that the receiver does not know in this state and shall simulate or own, all rest contacts of those of the sender's bodies that the
 /// receiver now has, and the keys that fall into the window. And what the players of the receiver may see.
 struct Arrivals {
@@ -54,6 +65,7 @@ struct Arrivals {
   };
   std::uint32_t window = 0;
   std::vector<Body> bodies;
+  std::vector<Flown> flown{};  ///< of those that the receiver has
   std::vector<Hold> holds;
   std::vector<Key> keys;
   std::vector<Glimpse> glimpses;
@@ -135,6 +147,11 @@ bool exchange(Stream& stream, Arrivals::Body& body) {
 }
 
 template <class Stream>
+bool exchange(Stream& stream, Flown& flown) {
+  return stream.numbers(flown.number, flown.position.x(), flown.position.y(), flown.velocity.x(), flown.velocity.y(), flown.time);
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Claims::Body& body) {
   return stream.numbers(body.number, body.flight_count) && stream.truth(body.is_known);
 }
@@ -166,8 +183,8 @@ bool exchange(Stream& stream, Glimpse& glimpse) {
 
 template <class Stream>
 bool exchange(Stream& stream, Arrivals& message) {
-  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.holds) && exchange_list(stream, message.keys) &&
-         exchange_list(stream, message.glimpses);
+  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.flown) && exchange_list(stream, message.holds) &&
+         exchange_list(stream, message.keys) && exchange_list(stream, message.glimpses);
 }
 
 template <class Stream>
@@ -205,5 +222,6 @@ std::size_t measured(const Claims& message);
 std::size_t measured(const Verdict& message);
 /// The state as the bytes by which states are compared.
 std::vector<std::uint8_t> bytes_of(BodyState state);
+bool are_same(BodyState a, BodyState b);
 
 }  // namespace rink::peer

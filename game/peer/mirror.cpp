@@ -21,6 +21,8 @@ void Mirror::apply() {
   part.step = change.step, part.time = change.time;
   for (const std::uint32_t body : change.gone) part.bodies.erase(body);
   for (const auto& [body, state] : change.bodies) part.bodies[body] = state;
+  for (const Flown& flown : change.flown)
+    if (const auto kept = part.bodies.find(flown.number); kept != part.bodies.end()) flown.write_to(kept->second.flight);
   part.holds = std::move(change.holds);
   part.keys = std::move(change.keys);
   part.log.insert(part.log.end(), change.log.begin(), change.log.end());

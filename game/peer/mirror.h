@@ -17,6 +17,7 @@ struct PartChange {
   double time = 0.0;                 ///< then [s]
   bool is_whole = false;             ///< `bodies` and `log` are all, nothing is kept
   std::vector<Arrivals::Body> bodies;
+  std::vector<Flown> flown{};        ///< of those that are kept
   std::vector<std::uint32_t> gone;   ///< to other owners
   std::vector<Hold> holds;           ///< all of them
   std::vector<Key> keys;             ///< of live players, still to take effect: all
@@ -25,7 +26,7 @@ struct PartChange {
 
 template <class Stream>
 bool exchange(Stream& stream, PartChange& change) {
-  return stream.numbers(change.step, change.time) && stream.truth(change.is_whole) && exchange_list(stream, change.bodies) && stream.size(change.gone) &&
+  return stream.numbers(change.step, change.time) && stream.truth(change.is_whole) && exchange_list(stream, change.bodies) && exchange_list(stream, change.flown) && stream.size(change.gone) &&
          std::all_of(change.gone.begin(), change.gone.end(), [&](std::uint32_t& body) { return stream.number(body); }) && exchange_list(stream, change.holds) &&
          exchange_list(stream, change.keys) && exchange_list(stream, change.log);
 }

@@ -14,8 +14,6 @@ namespace rink::peer {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A margin is that much wider than it need be, lest it be chosen anew with every halo.
-constexpr double margin_room = 1.25;
 
 bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t body) { return std::binary_search(sorted.begin(), sorted.end(), body); }
 
@@ -45,6 +43,8 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       homes_(body_count, 0),
       end_homes_(body_count, 0),
       is_edge_(body_count, 0),
+      is_watched_(body_count, 0),
+      owned_places_(body_count, 0),
       owners_(body_count, 0),
       known_(division.peer_count()),
       coming_(division.peer_count()),
@@ -61,17 +61,15 @@ void Peer::consider(std::uint32_t body, const BodyState& state) {
   const PeerNumber owner = division_.owner_of(place);
   if (owner != number_ && !is_in_region(number_, Box::around(place, state.extent()))) return;
   portion_.put(body, state);
-  (owner == number_ ? owned_ : ghosts_).push_back(body);
+  ghosts_.push_back(body);
 }
 
 void Peer::begin(double until) {
   if (!entered_holds_.empty()) set_holds(std::exchange(entered_holds_, {}));
   portion_.begin_window();
-  std::vector<std::uint32_t> candidates = std::move(owned_);
-  candidates.insert(candidates.end(), ghosts_.begin(), ghosts_.end());
-  owned_.clear();
-  settle(std::move(candidates));
+  settle(ghosts_);
   share_keys(until);
+  choose_watched();
 }
 
 Vector2 Peer::start_place(std::uint32_t body) const {
@@ -91,34 +89,6 @@ Box Peer::start_reach(std::uint32_t body) const {
   for (const Reach& group : groups_)
     if (group.body == body) return group.box;
   return Box::around(start_place(body), extent_of(body));
-}
-
-std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
-  const Box point = Box::around(place, {0.0, 0.0});
-  if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
-  for (std::size_t k = 0; k < interiors_.size(); ++k)
-    if (interiors_[k].holds(point)) return static_cast<std::uint8_t>(k + 1);
-  return 0;
-}
-
-bool Peer::is_margin_fit() const {
-  double halo = 0.0;
-  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
-    if (peer != number_ && is_present_[peer]) halo = std::max(halo, halos_[peer]);
-  const double needed = halo + 1.001 * extent_max_;
-  return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
-}
-
-/// And who was at home when the window began.
-void Peer::choose_margin() {
-  double halo = 0.0;
-  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
-    if (peer != number_ && is_present_[peer]) halo = std::max(halo, halos_[peer]);
-  margin_ = margin_room * (halo + 1.001 * extent_max_);
-  interiors_.clear();
-  for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
-  for (const std::uint32_t body : owned_) homes_[body] = home_of(start_place(body), 0);
-  for (const Reach& group : groups_) homes_[group.body] = 0;
 }
 
 bool Peer::knows(PeerNumber peer, std::uint32_t body) const { return contains(known_[peer], body); }
@@ -189,7 +159,9 @@ Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
   for (const Reach& reach : outskirts_) {
     if (!is_in_region(peer, reach.box)) continue;
     there.push_back(reach.body);
-    if (!steps_of(reach.body).empty() || !knows(peer, reach.body)) message.bodies.push_back({reach.body, portion_.state(reach.body)});
+    if (!knows(peer, reach.body)) message.bodies.push_back({reach.body, portion_.state(reach.body)});
+    else if (portion_.has_only_flown(reach.body)) message.flown.push_back(Flown::of(reach.body, portion_.flight(reach.body)));
+    else if (!steps_of(reach.body).empty()) message.bodies.push_back({reach.body, portion_.state(reach.body)});
   }
   std::sort(there.begin(), there.end());
   for (const Hold& hold : portion_.holds())
@@ -202,6 +174,21 @@ Arrivals Peer::arrivals_for(PeerNumber peer, double until) {
   return message;
 }
 
+/// Most ghosts are already what their owners say; the others follow from what they were when the window began.
+void Peer::complete_flown(Arrivals& arrivals, PeerNumber from) {
+  for (const Flown& flown : arrivals.flown) {
+    const std::uint32_t body = flown.number;
+    if (body >= roles_.size() || roles_[body] != ghost || owners_[body] != from) {
+      accuse(from, "hands over body " + std::to_string(body) + ", which it does not own");
+      continue;
+    }
+    const bool is_doubtful = doubts_[static_cast<std::size_t>(std::lower_bound(ghosts_.begin(), ghosts_.end(), body) - ghosts_.begin())] < infinity;
+    if (!is_doubtful && portion_.has_only_flown(body) && flown.is_as(portion_.flight(body))) continue;
+    arrivals.bodies.push_back({body, portion_.state_before(body)});
+    flown.write_to(arrivals.bodies.back().state.flight);
+  }
+}
+
 void Peer::enter_bodies(const Arrivals& arrivals, PeerNumber from) {
   for (const auto& [body, state] : arrivals.bodies) {
     if (body >= portion_.body_count() || roles_[body] == own || (roles_[body] == ghost && owners_[body] != from)) {
@@ -209,7 +196,7 @@ void Peer::enter_bodies(const Arrivals& arrivals, PeerNumber from) {
       continue;
     }
     extent_max_ = std::max(extent_max_, state.extent().maxCoeff());
-    if (!portion_.is_there(body) || bytes_of(portion_.state(body)) != bytes_of(state)) portion_.put(body, state);
+    if (!portion_.is_there(body) || !are_same(portion_.state(body), state)) portion_.put(body, state);
   }
 }
 
@@ -256,6 +243,7 @@ void Peer::commit(double until) {
   glimpses_ = glimpses_for(number_);
   note_log();
   if (keeps_changes_) note_changed();
+  for (PeerNumber from = 0; from < arrivals_.size(); ++from) complete_flown(arrivals_[from], from);
   correct_doubtful();
   std::vector<Hold> holds = portion_.holds();
   const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
@@ -279,48 +267,66 @@ void Peer::commit(double until) {
   ++window_;
   attempts_ = 0;
   start_ = portion_.world().now();
-  std::erase_if(owned_, [&](std::uint32_t body) { return end_homes_[body] == 0; });
-  homes_.swap(end_homes_);
+  for (const std::uint32_t body : watched_) homes_[body] = end_homes_[body];
   settle(std::move(candidates));
   share_keys(until);
+  if (!is_watch_fit()) choose_watched();
 }
 
-/// Who owns whom from now on, whom we have as ghosts, and who has ours. Those in `owned_` are at home.
+void Peer::own_from_now(std::uint32_t body) {
+  roles_[body] = own;
+  owned_places_[body] = static_cast<std::uint32_t>(owned_.size());
+  owned_.push_back(body);
+  if (keeps_changes_) changed_.push_back(body);
+}
+
+void Peer::disown(std::uint32_t body) {
+  roles_[body] = away;
+  ++counters_.hand_overs;
+  if (keeps_changes_) left_.push_back(body);
+  const std::uint32_t place = owned_places_[body], last = owned_.back();
+  owned_[place] = last, owned_places_[last] = place;
+  owned_.pop_back();
+}
+
+/// Who owns whom from now on, whom we have as ghosts, and who has ours. Own bodies that are no candidates are at home.
 void Peer::settle(std::vector<std::uint32_t> candidates) {
   std::erase_if(candidates, [&](std::uint32_t body) { return !portion_.is_there(body); });
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<Vector2> places;
   std::vector<Box> reaches;
-  for (const std::uint32_t body : candidates) reaches.push_back(reach_of(body));
+  for (const std::uint32_t body : candidates) {
+    places.push_back(portion_.world().position({body}));
+    reaches.push_back(portion_.world().is_held({body}) ? reach_of(body) : Box::around(places.back(), extent_of(body)));
+  }
   for (const std::uint32_t body : ghosts_) roles_[body] = away;
   ghosts_.clear(), groups_.clear();
   for (std::vector<std::uint32_t>& known : known_) known.clear();
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const std::uint32_t body = candidates[k];
-    const bool was_own = roles_[body] == own;
-    owners_[body] = division_.owner_of(portion_.world().position({body}));
+    owners_[body] = division_.owner_of(places[k]);
     if (owners_[body] == number_) {
-      roles_[body] = own;
-      owned_.push_back(body);
-      if (keeps_changes_ && !was_own) changed_.push_back(body);
+      if (roles_[body] != own) own_from_now(body);
+      watch(body);
       if (portion_.world().is_held({body})) groups_.push_back({body, reaches[k]});
       homes_[body] = 0;
       for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
         if (peer != number_ && is_in_region(peer, reaches[k])) known_[peer].push_back(body);
       continue;
     }
-    counters_.hand_overs += was_own;
-    if (keeps_changes_ && was_own) left_.push_back(body);
+    if (roles_[body] == own) disown(body);
     roles_[body] = is_in_region(number_, reaches[k]) ? ghost : away;
     if (roles_[body] == ghost) ghosts_.push_back(body);
     else portion_.drop(body);
   }
+  std::erase_if(watched_, [&](std::uint32_t body) { return roles_[body] != own && std::exchange(is_watched_[body], std::uint8_t{0}) != 0; });
   std::vector<Hold> holds = portion_.holds();
   if (!holds.empty()) set_holds(std::move(holds));
   if (!is_margin_fit()) choose_margin();
   else
-    for (const std::uint32_t body : candidates)
-      if (roles_[body] == own && !portion_.world().is_held({body})) homes_[body] = home_of(portion_.world().position({body}), 0);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      if (roles_[candidates[k]] == own && !portion_.world().is_held({candidates[k]})) homes_[candidates[k]] = home_of(places[k], 0);
   counters_.held_max = std::max<std::uint64_t>(counters_.held_max, owned_.size() + ghosts_.size());
   counters_.ghost_windows += ghosts_.size();
   for (const std::vector<std::uint32_t>& known : known_) counters_.border_windows += known.size();

@@ -149,20 +149,32 @@ class Peer {
   Box reach_of(std::uint32_t body) const;
   Box start_reach(std::uint32_t body) const;
   bool is_in_region(PeerNumber peer, const Box& box) const { return division_.is_near(peer, box, halos_[peer]); }
-  std::uint8_t home_of(const Vector2& place, std::uint8_t likely) const;
-  bool is_margin_fit() const;
-  void choose_margin();
   void play_keys(double until);
   bool knows(PeerNumber peer, std::uint32_t body) const;
   void enter_bodies(const Arrivals& arrivals, PeerNumber from);
   void set_holds(std::vector<Hold> holds);
+  void complete_flown(Arrivals& arrivals, PeerNumber from);
   void correct_doubtful();
+  void own_from_now(std::uint32_t body);
+  void disown(std::uint32_t body);
   void settle(std::vector<std::uint32_t> candidates);
   void share_keys(double until);
 
+  // peer_homes.cpp
+  std::uint8_t home_of(const Vector2& place, std::uint8_t likely) const;
+  double least_margin() const;
+  bool is_margin_fit() const;
+  void choose_margin();
+  void watch(std::uint32_t body);
+  bool stays(std::uint8_t home, const Vector2& place, const Vector2& velocity, double since) const;
+  void choose_watched();
+  bool is_watch_fit() const { return end_ <= watched_until_; }
+  void find_edge();
+  void look_at(std::uint32_t body);
+  void note_edge(std::uint32_t body);
+
   // peer_claims.cpp
   void survey();
-  void find_edge();
   void trace();
   void enter_event(Events event);
   std::span<const Step> steps_of(std::uint32_t body) const;
@@ -200,7 +212,13 @@ class Peer {
   std::vector<bool> is_repeating_, is_present_;
   bool wishes_to_leave_ = false, keeps_changes_ = false;
   std::vector<std::uint32_t> changed_, left_;      // in the last commit: own bodies whose states changed, or that came; and those that went
+  std::vector<std::uint32_t> flown_;               // likewise: that free impacts alone changed
   std::vector<std::uint8_t> roles_, homes_, end_homes_, is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or if it has companions
+  std::vector<std::uint8_t> is_watched_;
+  std::vector<std::uint32_t> watched_;       // own bodies; all others are at home, and stay there until `watched_until_` [s] if nothing happens to them
+  double watched_until_ = -1.0;
+  std::vector<std::uint32_t> edge_;          // own bodies that were not at home all the time; sorted
+  std::vector<std::uint32_t> owned_places_;  // in `owned_`
   std::vector<PeerNumber> owners_;  // of those that are there, in this window
   std::vector<std::uint32_t> owned_, ghosts_;
   std::vector<Reach> groups_;       // own bodies with companions: what they all take up at the window's start
@@ -217,6 +235,7 @@ class Peer {
   std::vector<Events> mixed_;       // events of own bodies and ghosts
   std::vector<Path> paths_;         // of own bodies that were not at home all the time
   std::vector<PathFlight> flights_;
+  Box hull_{};                      // holds all of these
   std::vector<double> doubts_;      // as in ghosts_: when the ghost ceases to be what its owner says; never, as a rule
   std::vector<bool> is_unmoved_;    // likewise: nothing happened to it, its owner says
   std::vector<Claims> claims_;

@@ -49,23 +49,6 @@ void Peer::survey() {
   lay_out_paths();
 }
 
-/// Which of the own bodies were not at home from the window's start to its end; and which are not at its end.
-void Peer::find_edge() {
-  outskirts_.clear();
-  const physics::World& world = portion_.world();
-  for (const std::uint32_t body : owned_) {
-    end_homes_[body] = world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), homes_[body]);
-    is_edge_[body] = homes_[body] == 0 || end_homes_[body] != homes_[body] || world.kind({body}) == physics::BodyKind::bat;
-    if (end_homes_[body] == 0) outskirts_.push_back({body, reach_of(body)});
-  }
-  for (const physics::Change& change : portion_.journal().changes) {
-    if (roles_[change.body] != own || is_edge_[change.body] != 0) continue;
-    // Between two places in a convex interior a straight flight stays there; one that bends need not.
-    const bool is_straight = change.motion == physics::Change::straight;
-    if (!is_straight || !interiors_[homes_[change.body] - 1u].holds({change.x, change.y, change.x, change.y})) is_edge_[change.body] = 1;
-  }
-}
-
 void Peer::trace() {
   const std::vector<physics::Change>& changes = portion_.journal().changes;
   steps_.clear(), mixed_.clear();
@@ -112,8 +95,8 @@ physics::Motion Peer::motion_after(const Step& step) const {
 void Peer::lay_out_paths() {
   paths_.clear(), flights_.clear();
   const std::vector<physics::Change>& changes = portion_.journal().changes;
-  for (const std::uint32_t body : owned_) {
-    if (is_edge_[body] == 0 || portion_.was_gone(body)) continue;
+  for (const std::uint32_t body : edge_) {
+    if (portion_.was_gone(body)) continue;
     const std::span<const Step> steps = steps_of(body);
     const Vector2 extent = extent_of(body);
     const std::size_t first = flights_.size();
@@ -126,6 +109,8 @@ void Peer::lay_out_paths() {
     }
     paths_.push_back({body, first, flights_.size()});
   }
+  hull_ = {infinity, infinity, -infinity, -infinity};
+  for (const PathFlight& flight : flights_) hull_ = hull_.with(flight.box);
 }
 
 Claims Peer::claims_for(PeerNumber peer) {
@@ -242,7 +227,8 @@ bool Peer::may_touch_own(const PathFlight& foreign) const {
   const Box box = foreign.box.grown(touch_margin);
   const Box centres = box.grown(extent_max_);
   if (std::any_of(interiors_.begin(), interiors_.end(), [&](const Box& interior) { return interior.meets(centres); })) return true;
-  return std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
+  // Most ghosts go astray at the rim of the halo, where no own body comes.
+  return hull_.meets(box) && std::any_of(flights_.begin(), flights_.end(), [&](const PathFlight& flight) {
     return flight.begin - time_margin <= foreign.end && foreign.begin <= flight.end + time_margin && flight.box.meets(box);
   });
 }

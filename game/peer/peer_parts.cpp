@@ -29,20 +29,14 @@ void Peer::divide(const Division& division) {
   division_ = division;
   margin_ = -1.0;
   outskirts_.clear();
-  for (const std::uint32_t body : owned_) {
-    end_homes_[body] = 0;
-    outskirts_.push_back({body, reach_of(body)});
-  }
+  for (const std::uint32_t body : owned_) outskirts_.push_back({body, reach_of(body)});
 }
 
 /// Before the journal is forgotten.
 void Peer::note_changed() {
-  changed_.clear(), left_.clear();
-  const auto note = [&](std::uint32_t body) {
-    if (roles_[body] == own) changed_.push_back(body);
-  };
-  for (const auto& kept : portion_.journal().states) note(kept.body);
-  for (const auto& kept : portion_.journal().flights) note(kept.body);
+  changed_.clear(), flown_.clear(), left_.clear();
+  for (const auto& kept : portion_.journal().flights)
+    if (roles_[kept.body] == own) (portion_.has_only_flown(kept.body) ? flown_ : changed_).push_back(kept.body);
 }
 
 PartChange Peer::change(bool is_whole) const {
@@ -53,6 +47,8 @@ PartChange Peer::change(bool is_whole) const {
   for (const std::uint32_t body : bodies)
     if (roles_[body] == own) change.bodies.push_back({body, portion_.state(body)});
   if (!is_whole) {
+    for (const std::uint32_t body : flown_)
+      if (roles_[body] == own) change.flown.push_back(Flown::of(body, portion_.flight(body)));
     change.gone = left_;
     change.log = log_;
   }

@@ -56,7 +56,7 @@ void BasicEngine<Real>::enter_changes() {
   BasicJournal<Real>& journal = *journal_;
   const auto enter = [&](std::uint32_t body) {
     journal.enter(body, bodies_[body], conditions_of(body) ^ journal.stirred);
-    if ((bodies_[body].flags & curved) == 0) return;
+    if ((bodies_[body].flags & (curved | held | frozen | gone)) == 0) return;
     journal.changes.back().motion = static_cast<std::uint32_t>(journal.motions.size());
     journal.motions.push_back(motion(body));
   };

@@ -40,7 +40,7 @@ struct BasicJournal {
   };
 
   std::vector<BasicChange<Real>> changes;
-  std::vector<BasicMotion<Real>> motions;  ///< of those that went on along a curve
+  std::vector<BasicMotion<Real>> motions;  ///< of those that went on along a curve, or have companions, or are out of play
   std::vector<KeptFlight> flights;         ///< of all that changed, before that
   std::vector<KeptState> states;           ///< of those that changed otherwise than in a free impact
   std::vector<std::uint32_t> looked_at;    ///< by the event at hand

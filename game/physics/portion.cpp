@@ -41,6 +41,14 @@ Motion Portion::motion_before(std::uint32_t body) const {
   return journal_.marks[body].number < journal_.mark ? engine().motion(body) : state_before(body).motion();
 }
 
+const Flight<double>& Portion::flight(std::uint32_t body) const { return engine().bodies_[body]; }
+
+std::optional<Flight<double>> Portion::free_flight(std::uint32_t body) const {
+  const Engine::Body& b = engine().bodies_[body];
+  if ((b.flags & (Engine::curved | Engine::held | Engine::frozen | Engine::gone)) != 0) return std::nullopt;
+  return b;
+}
+
 bool Portion::was_gone(std::uint32_t body) const {
   const Journal::Mark& mark = journal_.marks[body];
   const std::uint8_t flags = mark.number > journal_.mark ? journal_.states[mark.state].state.flags : engine().bodies_[body].flags;

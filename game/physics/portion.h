@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "game/physics/journal.h"
@@ -34,6 +35,12 @@ class Portion {
   BodyState state_before(std::uint32_t body) const;
   /// The body's path from then to its first change.
   Motion motion_before(std::uint32_t body) const;
+
+  const Flight<double>& flight(std::uint32_t body) const;
+  /// Whether it has changed in this window, and by nothing but free impacts, which leave all but its flight.
+  bool has_only_flown(std::uint32_t body) const { return journal_.marks[body].number == journal_.mark; }
+  /// Of a body in play that flies straight and has no companions; nothing of any other.
+  std::optional<Flight<double>> free_flight(std::uint32_t body) const;
 
   /// Whether it was out of play, or removed.
   bool was_gone(std::uint32_t body) const;

@@ -82,7 +82,9 @@ inline std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
 class SnapshotWriter : public SnapshotStream<SnapshotWriter> {
  public:
   bool word(std::uint64_t& value, int byte_count) {
-    for (int byte = 0; byte < byte_count; ++byte) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
+    const std::size_t begin = bytes_.size();
+    bytes_.resize(begin + static_cast<std::size_t>(byte_count));
+    for (int byte = 0; byte < byte_count; ++byte) bytes_[begin + static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(value >> (8 * byte));
     return true;
   }
   static std::uint64_t count_max() { return 0xffffffff; }

@@ -1,0 +1,102 @@
+// Which own bodies are deep in their zones, where no other peer's halo reaches: nothing is said of them, and hardly any is looked at.
+#include <algorithm>
+#include <limits>
+
+#include "game/peer/peer.h"
+
+namespace rink::peer {
+
+namespace {
+
+/// A margin is that much wider than it need be, lest it be chosen anew with every halo.
+constexpr double margin_room = 1.25;
+/// Who is not watched stays at home for that many windows if nothing happens to it; then all are looked at once. More windows make more bodies to be watched.
+constexpr double windows_watched = 24.0;
+
+}  // namespace
+
+std::uint8_t Peer::home_of(const Vector2& place, std::uint8_t likely) const {
+  const Box point = Box::around(place, {0.0, 0.0});
+  if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
+  for (std::size_t k = 0; k < interiors_.size(); ++k)
+    if (interiors_[k].holds(point)) return static_cast<std::uint8_t>(k + 1);
+  return 0;
+}
+
+double Peer::least_margin() const {
+  double halo = 0.0;
+  for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
+    if (peer != number_ && is_present_[peer]) halo = std::max(halo, halos_[peer]);
+  return halo + 1.001 * extent_max_;
+}
+
+bool Peer::is_margin_fit() const {
+  const double needed = least_margin();
+  return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
+}
+
+/// And who was at home when the window began. Until the next one all are watched.
+void Peer::choose_margin() {
+  margin_ = margin_room * least_margin();
+  interiors_.clear();
+  for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
+  for (const std::uint32_t body : owned_) homes_[body] = home_of(start_place(body), 0), watch(body);
+  for (const Reach& group : groups_) homes_[group.body] = 0;
+  watched_until_ = start_;
+}
+
+void Peer::watch(std::uint32_t body) {
+  if (is_watched_[body] != 0) return;
+  is_watched_[body] = 1;
+  watched_.push_back(body);
+}
+
+bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity, double since) const {
+  const Box& interior = interiors_[home - 1u];
+  const Vector2 farthest = place + velocity * (watched_until_ - since);  // drag only makes it shorter
+  return interior.holds(Box::around(place, {0.0, 0.0})) && interior.holds(Box::around(farthest, {0.0, 0.0}));
+}
+
+/// At a window's start: all that might leave their homes before `watched_until_` though nothing happens to them.
+void Peer::choose_watched() {
+  watched_until_ = start_ + windows_watched * (end_ - start_);
+  watched_.clear();
+  for (const std::uint32_t body : owned_) {
+    const std::uint8_t home = homes_[body];
+    is_watched_[body] = 0;
+    const auto flight = home == 0 ? std::nullopt : portion_.free_flight(body);
+    if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time)) watch(body);
+  }
+}
+
+/// Which of the own bodies were not at home from the window's start to its end; and which are not at its end.
+void Peer::find_edge() {
+  for (const std::uint32_t body : edge_) is_edge_[body] = 0;
+  edge_.clear(), outskirts_.clear();
+  for (const std::uint32_t body : watched_) look_at(body);
+  for (const physics::Change& change : portion_.journal().changes) {
+    const std::uint32_t body = change.body;
+    if (roles_[body] != own || is_edge_[body] != 0) continue;
+    // Between two places in a convex interior a straight flight stays there; one that bends need not.
+    const bool is_straight = change.motion == physics::Change::straight;
+    if (is_watched_[body] == 0 && !(is_straight && stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since))) watch(body), look_at(body);
+    if (!is_straight || !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y})) note_edge(body);
+  }
+  std::sort(edge_.begin(), edge_.end());
+}
+
+void Peer::look_at(std::uint32_t body) {
+  const physics::World& world = portion_.world();
+  const std::uint8_t home = homes_[body];
+  end_homes_[body] = world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), home);
+  if (home == 0 || end_homes_[body] != home || world.kind({body}) == physics::BodyKind::bat) note_edge(body);
+  if (end_homes_[body] == 0) outskirts_.push_back({body, reach_of(body)});
+}
+
+void Peer::note_edge(std::uint32_t body) {
+  if (is_edge_[body] != 0) return;
+  is_edge_[body] = 1;
+  edge_.push_back(body);
+}
+
+}  // namespace rink::peer
