@@ -1,6 +1,8 @@
 // The steps of peer.h in their order, message by message.
 #include "game/peer/protocol.h"
 
+#include "game/physics/body_hash.h"
+
 namespace rink::peer {
 
 namespace {
@@ -22,6 +24,11 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
     hear<decltype(make(from))>(peer, from, mail.receive(from));
   }
   if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+}
+
+/// As the engine sees it, whose hash says no more of such a body than its flight.
+bool flies_straight(const BodyState& state, const physics::WorldSpec& spec) {
+  return state.kind != physics::BodyKind::bat && state.acceleration == Vector2(0.0, 0.0) && state.drag == Vector2::Constant(spec.puck_drag);
 }
 
 }  // namespace
@@ -49,25 +56,48 @@ void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
 
 Arrivals own_bodies(const Peer& peer) {
   Arrivals all;
-  for (const std::uint32_t body : peer.owned()) all.bodies.push_back({body, peer.state(body)});
+  const physics::WorldSpec& spec = peer.world().spec();
+  for (const std::uint32_t body : peer.owned()) {
+    const BodyState state = peer.state(body);
+    if (state.flags == 0 && flies_straight(state, spec) && !spec.surface_friction) all.flown.push_back(Flown::of(body, state.flight));
+    else all.bodies.push_back({body, state});
+  }
   return all;
 }
 
 std::optional<std::uint64_t> hash_of_whole(const physics::WorldSpec& spec, std::uint32_t body_count, std::span<const Arrivals> parts) {
-  physics::Portion whole(spec, body_count);
-  double latest = 0.0;
-  for (const Arrivals& part : parts)
-    for (const auto& [body, state] : part.bodies) latest = std::max(latest, state.flight.time);
-  whole.advance(latest);
+  /// Where a body is told of, in one of the parts.
+  struct Place {
+    const BodyState* state = nullptr;
+    const Flown* flown = nullptr;
+  };
+  std::vector<Place> places(body_count);
   std::uint32_t known = 0;
-  for (const Arrivals& part : parts)
-    for (const auto& [body, state] : part.bodies) {
-      if (body >= body_count || whole.is_there(body)) return std::nullopt;
-      whole.put(body, state);
-      ++known;
-    }
+  const auto take = [&](std::uint32_t body, Place place) {
+    if (body >= body_count || places[body].state != nullptr || places[body].flown != nullptr) return false;
+    places[body] = place;
+    return ++known, true;
+  };
+  for (const Arrivals& part : parts) {
+    for (const auto& [body, state] : part.bodies)
+      if (!take(body, {&state, nullptr})) return std::nullopt;
+    for (const Flown& flown : part.flown)
+      if (!take(flown.number, {nullptr, &flown})) return std::nullopt;
+  }
   if (known != body_count) return std::nullopt;
-  return whole.world().hash();
+  physics::BasicBodyHash<double> hash;
+  for (const auto& [state, flown] : places) {
+    if (flown != nullptr) {
+      physics::Flight<double> flight{};
+      flown->write_to(flight);
+      hash.add(flight, nullptr, nullptr, 0, std::nullopt);
+      continue;
+    }
+    const bool is_straight = flies_straight(*state, spec);
+    hash.add(state->flight, is_straight ? nullptr : &state->acceleration, is_straight ? nullptr : &state->drag, state->flags,
+             spec.surface_friction ? std::optional(state->spin) : std::nullopt);
+  }
+  return hash.value();
 }
 
 std::uint64_t self_test_hash() {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "game/physics/body_hash.h"
 #include "game/physics/engine.h"
 
 namespace rink::physics {
@@ -59,24 +60,15 @@ Real BasicEngine<Real>::max_overlap() const {
 
 template <class Real>
 std::uint64_t BasicEngine<Real>::hash() const {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto mix_double = [&](double value) {
-    auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 0x100000001b3ULL;
-  };
-  const auto mix = [&](Real value) {
-    mix_double(static_cast<double>(value));
-    if constexpr (sizeof(Real) > sizeof(double)) mix_double(static_cast<double>(value - static_cast<Real>(static_cast<double>(value))));
-  };
+  BasicBodyHash<Real> hash;
   for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
     const Body& b = bodies_[body];
-    for (const Real value : {b.x, b.y, b.vx, b.vy, b.time}) mix(value);
-    if ((b.flags & curved) != 0)
-      for (int axis = 0; axis < 2; ++axis) mix(laws_[body].acceleration[axis]), mix(laws_[body].drag[axis]);
-    mix(b.flags & (gone | held | frozen));
-    if (is_rough()) mix(spins_[body]);
+    const bool is_curved = (b.flags & curved) != 0;
+    const Law& law = laws_[body];
+    hash.add(b, is_curved ? &law.acceleration : nullptr, is_curved ? &law.drag : nullptr, static_cast<std::uint8_t>(b.flags & (gone | held | frozen)),
+             is_rough() ? std::optional<Real>(spins_[body]) : std::nullopt);
   }
-  return hash;
+  return hash.value();
 }
 
 template class BasicEngine<double>;
