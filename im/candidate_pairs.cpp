@@ -12,7 +12,7 @@ void make_room(std::vector<List>& lists, std::uint32_t id) {
 template <class List>
 std::size_t bytes_of(const std::vector<List>& lists) {
   std::size_t bytes = lists.capacity() * sizeof(List);
-  for (const List& list : lists) bytes += list.capacity() * sizeof(std::uint32_t);
+  for (const List& list : lists) bytes += list.capacity() * sizeof(list[0]);
   return bytes;
 }
 
@@ -36,7 +36,7 @@ void CandidatePairs::remove_entity(Entity entity) {
   for (const Subscriber subscriber : subscribers_[entity].span()) {
     Buffer<Entry>& entries = entries_[subscriber];
     Entry* const end = entries.data() + entries.size();
-    Entry* const place = std::lower_bound(entries.data(), end, entity << 1);
+    Entry* const place = std::lower_bound(entries.data(), end, entity << 1, [](Entry entry, std::uint32_t key) { return entry.key < key; });
     assert(place != end && entity_of(*place) == entity);
     std::copy(place + 1, end, place);
     entries.resize(entries.size() - 1);
@@ -58,13 +58,19 @@ void CandidatePairs::touch(Subscriber subscriber) {
   touched_.push_back(subscriber);
 }
 
+void CandidatePairs::wake(Subscriber subscriber) {
+  if (subscriber >= entries_.size()) return;
+  Buffer<Entry>& entries = entries_[subscriber];
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].rests_until = -std::numeric_limits<float>::infinity();
+}
+
 void CandidatePairs::touch_near(Entity entity) {
-  if (entity >= subscribers_.size()) return;
+  if (entity >= subscribers_.size() || touched_.size() == entries_.size()) return;
   for (const Subscriber subscriber : subscribers_[entity].span()) touch(subscriber);
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(entries_) + bytes_of(subscribers_) + sizeof(std::uint32_t) * (merged_.capacity() + touched_.capacity()) + is_touched_.capacity() / 8;
+  return bytes_of(entries_) + bytes_of(subscribers_) + sizeof(Entry) * merged_.capacity() + sizeof(Subscriber) * touched_.capacity() + is_touched_.capacity() / 8;
 }
 
 }  // namespace rink::im

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "im/filter.h"
@@ -12,7 +14,7 @@
 
 namespace rink::im {
 
-/// Memory: 8 bytes per pair and half as much in reserve. Lists keep theirs when pairs go.
+/// Memory: 12 bytes per pair and half as much in reserve. Lists keep theirs when pairs go.
 class CandidatePairs {
  public:
   /// Forgets the pairs of one who is gone.
@@ -22,9 +24,11 @@ class CandidatePairs {
   /// Has `review` look at the pairs of `subscriber`, or at those of all whose box overlaps that of `entity`.
   void touch(Subscriber subscriber);
   void touch_near(Entity entity);
+  /// Forgets until when the pairs of `subscriber` may rest.
+  void wake(Subscriber subscriber);
 
-  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber, entity, is_relevant)` for each pair of those touched, whose third
-  /// argument is what it said last. Appends what changed to `changes`, ordered.
+  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber, entity, is_relevant, rests_until)` for each pair of those touched, whose third
+  /// argument is what it said last; the fourth, if it takes one, is its own to keep, below all numbers at first. Appends what changed to `changes`, ordered.
   template <class Decide>
   void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
 
@@ -32,8 +36,12 @@ class CandidatePairs {
 
  private:
   /// An entity and, in the lowest bit, whether it is relevant.
-  using Entry = std::uint32_t;
-  static Entity entity_of(Entry entry) { return entry >> 1; }
+  struct Entry {
+    std::uint32_t key;
+    float rests_until;
+  };
+  static Entity entity_of(Entry entry) { return entry.key >> 1; }
+  static bool is_relevant(Entry entry) { return (entry.key & 1u) != 0; }
 
   void add(Subscriber subscriber, Entity entity);
   void forget(Subscriber subscriber, Entity entity);
@@ -64,32 +72,36 @@ std::size_t CandidatePairs::merge(Subscriber subscriber, std::span<const Change>
   Buffer<Entry>& entries = entries_[subscriber];
   std::size_t next = 0;
   const auto has_change = [&] { return next < box_changes.size() && box_changes[next].subscriber == subscriber; };
-  const auto looked_at = [&](Entity entity, bool was) -> Entry {
-    const bool is = decide(subscriber, entity, was);
+  const auto looked_at = [&](Entry entry) -> Entry {
+    const Entity entity = entity_of(entry);
+    const bool was = is_relevant(entry);
+    bool is = was;
+    if constexpr (std::is_invocable_v<const Decide&, Subscriber, Entity, bool, float&>) is = decide(subscriber, entity, was, entry.rests_until);
+    else is = decide(subscriber, entity, was);
     if (is != was) changes.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
-    return entity << 1 | (is ? 1u : 0u);
+    return {entity << 1 | (is ? 1u : 0u), entry.rests_until};
   };
   if (!has_change()) {
-    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = looked_at(entity_of(entries[i]), (entries[i] & 1u) != 0);
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = looked_at(entries[i]);
     return 0;
   }
   const auto enter_below = [&](std::uint64_t end) {
     for (; has_change() && box_changes[next].entity < end; ++next) {
       add(subscriber, box_changes[next].entity);
-      merged_.push_back(looked_at(box_changes[next].entity, false));
+      merged_.push_back(looked_at({box_changes[next].entity << 1, -std::numeric_limits<float>::infinity()}));
     }
   };
   merged_.clear();
+  merged_.reserve(entries.size() + box_changes.size());
   for (const Entry entry : entries.span()) {
     const Entity entity = entity_of(entry);
     enter_below(entity);
-    const bool was = (entry & 1u) != 0;
     if (!has_change() || box_changes[next].entity != entity) {
-      merged_.push_back(looked_at(entity, was));
+      merged_.push_back(looked_at(entry));
       continue;
     }
     assert(box_changes[next].transition == Transition::left);
-    if (was) changes.push_back(box_changes[next]);
+    if (is_relevant(entry)) changes.push_back(box_changes[next]);
     forget(subscriber, entity);
     ++next;
   }

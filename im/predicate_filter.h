@@ -1,12 +1,15 @@
 // The short path to a scheme: makes a whole filter of a predicate that says whether one entity matters to one subscriber.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
 
 #include "im/candidate_pairs.h"
+#include "im/odometer.h"
 #include "im/overlap_filter.h"
 
 namespace rink::im {
@@ -15,6 +18,13 @@ namespace rink::im {
 struct Party {
   std::uint32_t id;
   const Region& region;
+};
+
+/// What a predicate may return instead of a bool: the answer, and how far both may come from here, the sum of the greatest changes of any coordinate of either [m], before
+/// it can be another. 0: not known, ask again whenever one has moved.
+struct Judgement {
+  bool is_relevant;
+  double slack;
 };
 
 /// An entity matters to a subscriber while their closed rectangles overlap and `relevant(subscriber, entity)`, a pure function of two `Party`s, is true. The
@@ -35,26 +45,41 @@ class PredicateFilter : public OverlapFilter {
   }
   std::span<const Change> match() override {
     const std::span<const Change> box_changes = find();
-    for (const Entity entity : entities_.moved()) pairs_.touch_near(entity);
     for (const Subscriber subscriber : subscribers_.moved()) pairs_.touch(subscriber);
+    for (const Entity entity : entities_.moved()) pairs_.touch_near(entity);
+    entity_ways_.follow(entities_), subscriber_ways_.follow(subscribers_);
     changes_.clear();
-    pairs_.review(box_changes, [this](Subscriber subscriber, Entity entity, bool was) { return decide(subscriber, entity, was); }, changes_);
+    pairs_.review(box_changes, [this](Subscriber subscriber, Entity entity, bool was, float& rests_until) { return decide(subscriber, entity, was, rests_until); }, changes_);
     settle(changes_.span());
     return changes_.span();
   }
 
   /// Memory held.
-  std::size_t bytes() const { return OverlapFilter::bytes() + pairs_.bytes() + sizeof(Change) * changes_.capacity(); }
+  std::size_t bytes() const { return OverlapFilter::bytes() + pairs_.bytes() + sizeof(Change) * changes_.capacity() + entity_ways_.bytes() + subscriber_ways_.bytes(); }
+
+ protected:
+  /// Something else than its region changed what `subscriber` wants: by no more than a change of its region by so many metres would, or by who knows how much.
+  void turned(Subscriber subscriber, double length) { subscriber_ways_.add(subscriber, length); }
+  void turned(Subscriber subscriber) { pairs_.wake(subscriber); }
 
  private:
-  bool decide(Subscriber subscriber, Entity entity, bool was) {
-    if (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber)) return was;
+  static Judgement judgement(bool is_relevant) { return {is_relevant, 0.0}; }
+  static Judgement judgement(const Judgement& judgement) { return judgement; }
+
+  bool decide(Subscriber subscriber, Entity entity, bool was, float& rests_until) {
+    const double way = entity_ways_[entity] + subscriber_ways_[subscriber];
+    if (way < static_cast<double>(rests_until) || (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber))) return was;
     ++counters_.pairs_tested;
-    return relevant_(Party{subscriber, subscribers_[subscriber].now}, Party{entity, entities_[entity].now});
+    const Judgement is = judgement(relevant_(Party{subscriber, subscribers_[subscriber].now}, Party{entity, entities_[entity].now}));
+    // Rounded down; where nothing is known it is always over.
+    const auto until = static_cast<float>(std::min(way + is.slack, 1e30));
+    rests_until = is.slack > 0.0 ? until - until * 0x1p-20f : -std::numeric_limits<float>::infinity();
+    return is.is_relevant;
   }
 
   Relevant relevant_;
   CandidatePairs pairs_;
+  Odometer entity_ways_, subscriber_ways_;
   Buffer<Change> changes_;
 };
 

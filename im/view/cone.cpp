@@ -1,6 +1,7 @@
 // The scheme `cone`: an entity matters to a subscriber while its rectangle touches the subscriber's field of view, a closed sector.
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "im/predicate_filter.h"
@@ -45,7 +46,13 @@ class Views {
 
 struct InView {
   const Views* views;
-  bool operator()(const Party& subscriber, const Party& entity) const { return views->wedge(subscriber.id).touches(plain(subscriber.region), plain(entity.region)); }
+  /// A change of all coordinates of a region by 1 moves its middle by sqrt 2 and the rim of its disc by 1 more.
+  Judgement operator()(const Party& subscriber, const Party& entity) const {
+    const Wedge& wedge = views->wedge(subscriber.id);
+    const Region mine = plain(subscriber.region), its = plain(entity.region);
+    const double clearance = wedge.clearance(mine, its);
+    return std::abs(clearance) > 0.0 ? Judgement{clearance > 0.0, 0.4 * std::abs(clearance)} : Judgement{wedge.touches(mine, its), 0.0};
+  }
 };
 
 class ConeFilter final : private Views, public PredicateFilter<InView> {
@@ -65,7 +72,7 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     assert(std::isfinite(heading.x) && std::isfinite(heading.y));
     if (!subscribers_.contains(subscriber)) return;
     if (heading == Heading{}) return void(look(subscriber, Views::heading(subscriber), false));  // on with the last direction, until it moves
-    if (look(subscriber, heading, true)) subscribers_.touch(subscriber), ++counters_.regions_moved;
+    if (look(subscriber, heading, true)) turned(subscriber), subscribers_.touch(subscriber), ++counters_.regions_moved;
   }
   std::span<const Change> match() override {
     for (const Subscriber subscriber : subscribers_.moved()) learn(subscriber);
@@ -80,7 +87,17 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     if (is_told(subscriber) || is_nowhere(motion.before) || is_nowhere(motion.now)) return;
     const Eye from(plain(motion.before)), to(plain(motion.now));
     const Heading way{to.x - from.x, to.y - from.y};
-    if (way != Heading{}) look(subscriber, way, false);
+    if (way == Heading{}) return;
+    // Straight on, but for rounding: the arc of the rim is what that can change.
+    const double turn = angle_between(Views::heading(subscriber), way);
+    if (!look(subscriber, way, false)) return;
+    if (turn < 1e-6) turned(subscriber, turn * (std::abs(motion.now.high_x - motion.now.low_x) + std::abs(motion.now.high_y - motion.now.low_y)));
+    else turned(subscriber);
+  }
+  /// At least the angle, for small ones; infinite where there is none.
+  static double angle_between(const Heading& a, const Heading& b) {
+    const double cross = a.x * b.y - a.y * b.x, dot = a.x * b.x + a.y * b.y;
+    return dot > 0.0 ? 2.0 * std::abs(cross) / dot + 1e-12 : std::numeric_limits<double>::infinity();
   }
 };
 

@@ -2,6 +2,7 @@
 #include "im/view/sector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 #include "im/view/exact.h"
@@ -86,7 +87,37 @@ bool edge_touches(const Region& subscription, const Eye& eye, const Region& box,
          enters_in_reach(subscription, {eye.y < box.low_y ? box.low_y : box.high_y, eye.y, box.low_x, box.high_x, eye.x, ray.y, ray.x});
 }
 
+/// Of the corners of `box` seen from the eye: the least distance to the left of a line through the eye.
+double least_left_of(const Heading& line, double low_x, double low_y, double high_x, double high_y) {
+  const double across_low = line.x * low_y, across_high = line.x * high_y, along_low = line.y * low_x, along_high = line.y * high_x;
+  return (std::min(across_low, across_high) - std::max(along_low, along_high)) / std::sqrt(line.x * line.x + line.y * line.y);
+}
+
 }  // namespace
+
+/// A box is apart from a sector by its distance from the disc or from one of the two half planes whose common part the wedge is (or, if it is wider than half, from both); it
+/// touches as long as one of its points, the nearest or the middle, is inside.
+double Wedge::clearance(const Region& subscription, const Region& box) const {
+  const Eye eye(subscription);
+  const double radius = 0.5 * std::min(subscription.high_x - subscription.low_x, subscription.high_y - subscription.low_y);
+  const double low_x = box.low_x - eye.x, low_y = box.low_y - eye.y, high_x = box.high_x - eye.x, high_y = box.high_y - eye.y;
+  const double error = 1e-12 * (std::abs(eye.x) + std::abs(eye.y) + radius + std::abs(low_x) + std::abs(low_y) + std::abs(high_x) + std::abs(high_y)) + 1e-50;
+  const double x = nearest(0.0, low_x, high_x), y = nearest(0.0, low_y, high_y);
+  double apart = std::sqrt(x * x + y * y) - radius;
+  if (width_ != Width::all) {
+    const double left = least_left_of(left_, low_x, low_y, high_x, high_y), right = least_left_of({-right_.x, -right_.y}, low_x, low_y, high_x, high_y);
+    apart = std::max(apart, width_ == Width::at_most_half ? std::max(left, right) : std::min(left, right));
+  }
+  if (apart > error) return error - apart;
+  const auto depth = [&](double px, double py) {
+    const double within_disc = radius - std::sqrt(px * px + py * py);
+    if (width_ == Width::all) return within_disc;
+    const double left = -least_left_of(left_, px, py, px, py), right = -least_left_of({-right_.x, -right_.y}, px, py, px, py);
+    return std::min(within_disc, width_ == Width::at_most_half ? std::min(left, right) : std::max(left, right));
+  };
+  const double touching = std::max(depth(x, y), depth(0.5 * (low_x + high_x), 0.5 * (low_y + high_y)));
+  return touching > error ? touching - error : 0.0;
+}
 
 Wedge::Wedge(const Heading& ahead, double half_angle_deg) : ahead_(scaled(ahead)) {
   if ((ahead_.x == 0.0 && ahead_.y == 0.0) || half_angle_deg >= 180.0) return;

@@ -25,6 +25,8 @@ class Wedge {
 
   /// True if the sector of this wedge touches `box`: it has its point at the middle of `subscription`, and is of the closed disc with half its shorter side as radius. Both are plain.
   bool touches(const Region& subscription, const Region& box) const;
+  /// How far the sector and the box may come towards or from each other before that can change [m], by doubles: above 0 if they touch, below if not, 0 if that is in doubt.
+  double clearance(const Region& subscription, const Region& box) const;
 
  private:
   enum class Width { all, at_most_half, more_than_half };

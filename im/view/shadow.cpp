@@ -1,6 +1,9 @@
 // Decides by distances from a post's middle to the way between the eye and a corner, without rounding.
 #include "im/view/shadow.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "im/view/exact.h"
 
 namespace rink::im {
@@ -28,7 +31,26 @@ bool hides_point(const Disc& post, const Eye& eye, double x, double y) {
          }) < 0;
 }
 
+/// From `post` to the straight way from the eye to a point.
+double distance_to_way(const Disc& post, const Eye& eye, double x, double y) {
+  const double way_x = x - eye.x, way_y = y - eye.y, post_x = post.x - eye.x, post_y = post.y - eye.y, length = way_x * way_x + way_y * way_y;
+  const double part = length > 0.0 ? std::clamp((way_x * post_x + way_y * post_y) / length, 0.0, 1.0) : 0.0;
+  return std::hypot(post_x - part * way_x, post_y - part * way_y);
+}
+
 }  // namespace
+
+/// The way to one point of the box that is free shows it, and stays free while neither of its ends has come so far; the ways to all corners must pass through to hide it.
+double shadow_clearance(const Disc& post, const Eye& eye, const Region& box) {
+  const double sizes = std::abs(post.x) + std::abs(post.y) + post.radius + std::abs(eye.x) + std::abs(eye.y) + std::abs(box.low_x) + std::abs(box.low_y) + std::abs(box.high_x) + std::abs(box.high_y);
+  const double error = 1e-12 * sizes + 1e-50, from_eye = std::hypot(post.x - eye.x, post.y - eye.y) - post.radius;
+  const double free = std::max(distance_to_way(post, eye, 0.5 * box.low_x + 0.5 * box.high_x, 0.5 * box.low_y + 0.5 * box.high_y) - post.radius, -from_eye);
+  if (free > error) return error - free;
+  double hidden = from_eye;
+  for (const double x : {box.low_x, box.high_x})
+    for (const double y : {box.low_y, box.high_y}) hidden = std::min(hidden, post.radius - distance_to_way(post, eye, x, y));
+  return hidden > error ? hidden - error : 0.0;
+}
 
 bool hides(const Disc& post, const Eye& eye, const Region& box) {
   // What reaches to the other side of the eye than the post is on is not behind it; most pairs end here. Strictly: then the rounding of the post's edge cannot matter.

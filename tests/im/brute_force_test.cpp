@@ -1,6 +1,8 @@
 // Every scheme against brute force on long random sequences of moves, arrivals, removals and returns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/im/long_play.h"
 
 namespace rink::im {
@@ -19,6 +21,33 @@ TEST_P(EveryScheme, ReplaysToTheRecountOnEveryLayout) {
 
 TEST_P(EverySchemeLong, ReplaysToTheRecountOverAThousandSeeds) {
   for (std::uint64_t seed = 1000; seed < 2000 && !HasFatalFailure(); ++seed) play_scheme(GetParam(), seed, 24);
+}
+
+/// Most pairs rest until their two could have come far enough; who rests too long is caught where steps are small.
+TEST_P(EveryScheme, ReplaysToTheRecountWhereAllDriftSlowly) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Judged judged(GetParam(), settings_for(seed));
+    std::vector<Region> entities, subscribers;
+    for (Entity entity = 0; entity < 40; ++entity) entities.push_back(draw_gridded(random, 0.25));
+    for (Subscriber subscriber = 0; subscriber < 10; ++subscriber) subscribers.push_back(draw_gridded(random, 3.0));
+    std::vector<Heading> steps;
+    const auto step = [&] { return seed % 2 == 0 ? std::round(between(random, -2.0, 2.0)) / 32.0 : between(random, -0.05, 0.05); };
+    for (int i = 0; i < 50; ++i) steps.push_back({step(), step()});
+    for (int tick = 0; tick < 80; ++tick) {
+      const auto on = [&](Region& region, const Heading& by) { region = {region.low_x + by.x, region.low_y + by.y, region.high_x + by.x, region.high_y + by.y}; };
+      for (Entity entity = 0; entity < 40; ++entity)
+        if (on(entities[entity], steps[entity]), tick == 0 || between(random, 0.0, 1.0) < 0.9) judged.move_entity(entity, entities[entity]);
+      for (Subscriber subscriber = 0; subscriber < 10; ++subscriber) {
+        if (on(subscribers[subscriber], steps[40 + subscriber]), tick == 0 || between(random, 0.0, 1.0) < 0.9) judged.move_subscriber(subscriber, subscribers[subscriber]);
+        if (between(random, 0.0, 1.0) < 0.02) judged.turn(subscriber, draw_heading(random));
+      }
+      if (tick % 20 == 19) std::shuffle(steps.begin(), steps.end(), random);
+      judged.check_match();
+      if (HasFatalFailure()) return;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Im, EveryScheme, testing::ValuesIn(filter_names()), [](const auto& info) { return info.param; });

@@ -109,7 +109,7 @@ void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count,
 
 TEST(ChangeJoin, FollowsManyWhoDriftSlowly) {
   for (const Layout& layout : layouts)
-    for (const Shape shape : {Shape::rectangle, Shape::disc}) drift(layout, 3, 300, 150, 40, shape);
+    for (const Shape shape : {Shape::rectangle, Shape::disc}) drift(layout, 3, 200, 100, 40, shape);
 }
 TEST(ChangeJoin, FollowsManySubscribersWhoDriftSlowly) { drift(layouts[1], 4, 50, 5'000, 15, Shape::rectangle); }
 
