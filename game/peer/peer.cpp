@@ -95,8 +95,17 @@ bool Peer::knows(PeerNumber peer, std::uint32_t body) const { return contains(kn
 bool Peer::will_have(PeerNumber peer, std::uint32_t body) const { return contains(coming_[peer], body); }
 
 void Peer::play() {
+  // Those of whom something was entered in the window before have a room again, if they have not been watched since.
+  for (const std::uint32_t body : portion_.take_entered())
+    if (roles_[body] == own && is_watched_[body] == 0) portion_.set_room(body, homes_[body]);
   play_keys(end_);
   survey();
+}
+
+/// The same run: who is no longer at home may have had impacts that were not entered.
+void Peer::play_anew() {
+  portion_.undo();
+  play();
 }
 
 void Peer::play_keys(double until) {
@@ -126,8 +135,9 @@ Outcome Peer::conclude() {
   if (is_final && !needs_whole) return Outcome::final;
   counters_.repeats += is_repeating_[number_];
   ++attempts_;
-  if (!is_margin_fit()) choose_margin();
-  if (!is_repeating_[number_]) survey();
+  const bool is_fit = is_margin_fit();
+  if (!is_fit) choose_margin();
+  if (!is_repeating_[number_]) is_fit ? survey() : play_anew();
   return Outcome::repeat;
 }
 
@@ -267,7 +277,7 @@ void Peer::commit(double until) {
   ++window_;
   attempts_ = 0;
   start_ = portion_.world().now();
-  for (const std::uint32_t body : watched_) homes_[body] = end_homes_[body];
+  for (const std::uint32_t body : watched_) homes_[body] = end_homes_[body], is_watched_[body] = watched;
   settle(std::move(candidates));
   share_keys(until);
   if (!is_watch_fit()) choose_watched();
@@ -282,6 +292,7 @@ void Peer::own_from_now(std::uint32_t body) {
 
 void Peer::disown(std::uint32_t body) {
   roles_[body] = away;
+  portion_.set_room(body, 0);
   ++counters_.hand_overs;
   if (keeps_changes_) left_.push_back(body);
   const std::uint32_t place = owned_places_[body], last = owned_.back();
@@ -308,7 +319,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     owners_[body] = division_.owner_of(places[k]);
     if (owners_[body] == number_) {
       if (roles_[body] != own) own_from_now(body);
-      watch(body);
+      watch(body, watched);
       if (portion_.world().is_held({body})) groups_.push_back({body, reaches[k]});
       homes_[body] = 0;
       for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
@@ -320,7 +331,7 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
     if (roles_[body] == ghost) ghosts_.push_back(body);
     else portion_.drop(body);
   }
-  std::erase_if(watched_, [&](std::uint32_t body) { return roles_[body] != own && std::exchange(is_watched_[body], std::uint8_t{0}) != 0; });
+  std::erase_if(watched_, [&](std::uint32_t body) { return roles_[body] != own && std::exchange(is_watched_[body], std::uint8_t{not_watched}) != not_watched; });
   std::vector<Hold> holds = portion_.holds();
   if (!holds.empty()) set_holds(std::move(holds));
   if (!is_margin_fit()) choose_margin();

@@ -120,6 +120,8 @@ class Peer {
 
  private:
   enum Role : std::uint8_t { away, ghost, own };
+  /// `late`: since something happened to it in this window; what had happened before that it did in its home.
+  enum Watch : std::uint8_t { not_watched, watched, late };
   /// What a body went through in the `change`th change of the journal; `state` as in ClaimedFlight.
   struct Step {
     std::uint32_t body, change;
@@ -149,6 +151,7 @@ class Peer {
   Box reach_of(std::uint32_t body) const;
   Box start_reach(std::uint32_t body) const;
   bool is_in_region(PeerNumber peer, const Box& box) const { return division_.is_near(peer, box, halos_[peer]); }
+  void play_anew();
   void play_keys(double until);
   bool knows(PeerNumber peer, std::uint32_t body) const;
   void enter_bodies(const Arrivals& arrivals, PeerNumber from);
@@ -165,11 +168,12 @@ class Peer {
   double least_margin() const;
   bool is_margin_fit() const;
   void choose_margin();
-  void watch(std::uint32_t body);
+  void watch(std::uint32_t body, Watch how);
   bool stays(std::uint8_t home, const Vector2& place, const Vector2& velocity, double since) const;
   void choose_watched();
   bool is_watch_fit() const { return end_ <= watched_until_; }
   void find_edge();
+  Box room_at_home(std::uint32_t body) const;
   void look_at(std::uint32_t body);
   void note_edge(std::uint32_t body);
 

@@ -52,7 +52,7 @@ void Peer::survey() {
 void Peer::trace() {
   const std::vector<physics::Change>& changes = portion_.journal().changes;
   steps_.clear(), mixed_.clear();
-  own_events_ = ghost_events_ = 0;
+  own_events_ = portion_.journal().quiet_events, ghost_events_ = 0;
   for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end) {
     bool has_own = false, has_ghost = false, has_edge = false;
     for (end = begin; end < changes.size() && changes[end].event == changes[begin].event; ++end) {
@@ -101,7 +101,9 @@ void Peer::lay_out_paths() {
     const Vector2 extent = extent_of(body);
     const std::size_t first = flights_.size();
     const auto time_of = [&](std::size_t k) { return k < steps.size() ? changes[steps[k].change].time : end_; };
-    flights_.push_back({start_, time_of(0), 0, swept(portion_.motion_before(body), start_, time_of(0), extent)});
+    // Who was not watched when the window began may have had impacts that were not entered, all of them at home.
+    const bool is_late = is_watched_[body] == late;
+    flights_.push_back({start_, time_of(0), 0, is_late ? room_at_home(body).grown(extent.x(), extent.y()) : swept(portion_.motion_before(body), start_, time_of(0), extent)});
     for (std::size_t k = 0; k < steps.size(); ++k) {
       const physics::Motion motion = motion_after(steps[k]);
       const bool is_out = k + 1 == steps.size() && !portion_.world().is_in_play({body});

@@ -35,20 +35,25 @@ bool Peer::is_margin_fit() const {
   return margin_ >= needed && (margin_ <= margin_room * margin_room * needed || margin_ == needed);
 }
 
-/// And who was at home when the window began. Until the next one all are watched.
+/// And who was at home when the window began. Until the next one all are watched, and a run that has been played must be played anew.
 void Peer::choose_margin() {
   margin_ = margin_room * least_margin();
   interiors_.clear();
   for (const Box& zone : division_.zones_of(number_)) interiors_.push_back(zone.grown(-margin_));
-  for (const std::uint32_t body : owned_) homes_[body] = home_of(start_place(body), 0), watch(body);
+  for (const std::uint32_t body : owned_) {
+    homes_[body] = home_of(start_place(body), 0);
+    watch(body, watched);
+    is_watched_[body] = watched;
+  }
   for (const Reach& group : groups_) homes_[group.body] = 0;
   watched_until_ = start_;
 }
 
-void Peer::watch(std::uint32_t body) {
-  if (is_watched_[body] != 0) return;
-  is_watched_[body] = 1;
+void Peer::watch(std::uint32_t body, Watch how) {
+  if (is_watched_[body] != not_watched) return;
+  is_watched_[body] = how;
   watched_.push_back(body);
+  portion_.set_room(body, 0);
 }
 
 bool Peer::stays(std::uint8_t home, const Vector2& place, const Vector2& velocity, double since) const {
@@ -63,10 +68,14 @@ void Peer::choose_watched() {
   watched_.clear();
   for (const std::uint32_t body : owned_) {
     const std::uint8_t home = homes_[body];
-    is_watched_[body] = 0;
+    is_watched_[body] = not_watched;
     const auto flight = home == 0 ? std::nullopt : portion_.free_flight(body);
-    if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time)) watch(body);
+    if (!flight || !stays(home, {flight->x, flight->y}, {flight->vx, flight->vy}, flight->time)) watch(body, watched);
+    else portion_.set_room(body, home);
   }
+  std::vector<physics::Journal::Room> rooms;
+  for (const Box& box : interiors_) rooms.push_back({box.low_x, box.low_y, box.high_x, box.high_y});
+  portion_.set_rooms(std::move(rooms), watched_until_);
 }
 
 /// Which of the own bodies were not at home from the window's start to its end; and which are not at its end.
@@ -79,10 +88,17 @@ void Peer::find_edge() {
     if (roles_[body] != own || is_edge_[body] != 0) continue;
     // Between two places in a convex interior a straight flight stays there; one that bends need not.
     const bool is_straight = change.motion == physics::Change::straight;
-    if (is_watched_[body] == 0 && !(is_straight && stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since))) watch(body), look_at(body);
+    if (is_watched_[body] == not_watched && !(is_straight && stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since))) watch(body, late), look_at(body);
     if (!is_straight || !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y})) note_edge(body);
   }
   std::sort(edge_.begin(), edge_.end());
+}
+
+/// Without its infinite sides, from which nothing has a distance.
+Box Peer::room_at_home(std::uint32_t body) const {
+  const physics::Field& field = portion_.world().spec().field;
+  const Box& room = interiors_[homes_[body] - 1u];
+  return {std::max(room.low_x, -field.length), std::max(room.low_y, -field.width), std::min(room.high_x, 2.0 * field.length), std::min(room.high_y, 2.0 * field.width)};
 }
 
 void Peer::look_at(std::uint32_t body) {

@@ -68,7 +68,7 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
   b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
-  if (journal_ != nullptr) journal_->enter(low, a, a.mouth), journal_->enter(high, b, b.mouth), ++journal_->event;
+  if (journal_ != nullptr) journal_->enter_impact(low, a, a.mouth, high, b, b.mouth);
   predict(low);
   predict(high);
   return true;

@@ -39,6 +39,12 @@ struct BasicJournal {
     std::uint32_t number = 0, flight = 0, state = 0;
   };
 
+  /// A rectangle, sides included [m].
+  struct Room {
+    Real low_x, low_y, high_x, high_y;
+    bool holds(Real x, Real y) const { return low_x <= x && x <= high_x && low_y <= y && y <= high_y; }
+  };
+
   std::vector<BasicChange<Real>> changes;
   std::vector<BasicMotion<Real>> motions;  ///< of those that went on along a curve, or have companions, or are out of play
   std::vector<KeptFlight> flights;         ///< of all that changed, before that
@@ -53,6 +59,12 @@ struct BasicJournal {
   std::uint64_t at_once_max = 0;           ///< the most events at one instant
   std::vector<Real> times;                 ///< of all events that are counted so
   bool was_hopeless = false;               ///< a joint impact could not be solved
+  // Free impacts of bodies that stay far from all that the reader cares for are counted, not entered.
+  std::vector<std::uint8_t> rooms_of;      ///< by body: 1 + the room in which it is; 0 if all that happens to it is entered
+  std::vector<Room> rooms;
+  Real quiet_until = -1.0;                 ///< [s] up to which a body must stay in its room if nothing else happens to it
+  std::uint64_t quiet_events = 0;          ///< in this window
+  std::vector<std::uint32_t> entered;      ///< bodies that were in a room until something was entered of them: from then on all is
   HoldAge age;
 
   void keep_flight(std::uint32_t body, const Flight<Real>& flight) {
@@ -61,7 +73,20 @@ struct BasicJournal {
     flights.push_back({body, flight});
   }
   void enter(std::uint32_t body, const Flight<Real>& f, std::uint64_t conditions) {
+    if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
     changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, BasicChange<Real>::straight});
+  }
+  bool is_quiet(std::uint32_t body, const Flight<Real>& f) const {
+    if (rooms_of[body] == 0) return false;
+    const Room& room = rooms[rooms_of[body] - 1u];
+    const Real ahead = quiet_until - f.time;  // drag would only make the way shorter
+    return room.holds(f.x, f.y) && room.holds(f.x + f.vx * ahead, f.y + f.vy * ahead);
+  }
+  /// A free impact of two bodies, after it.
+  void enter_impact(std::uint32_t low, const Flight<Real>& a, std::uint64_t conditions_a, std::uint32_t high, const Flight<Real>& b, std::uint64_t conditions_b) {
+    if (is_quiet(low, a) && is_quiet(high, b)) ++quiet_events;
+    else enter(low, a, conditions_a), enter(high, b, conditions_b);
+    ++event;
   }
   /// The event that is about to be processed.
   void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {

@@ -22,6 +22,7 @@ Portion::Portion(const WorldSpec& spec, std::uint32_t body_count) : world_(spec)
   if (e.is_slowed()) e.rest_times_.assign(body_count, infinity), e.slowing_.assign(body_count, Vector2(0.0, 0.0));
   if (e.is_rough()) e.spins_.assign(body_count, 0.0);
   journal_.marks.resize(body_count);
+  journal_.rooms_of.assign(body_count, 0);
   e.rebuild_from_state();
   e.journal_ = &journal_;
 }
@@ -146,7 +147,7 @@ void Portion::begin_window() {
   const Engine& e = engine();
   journal_.changes.clear(), journal_.motions.clear(), journal_.flights.clear(), journal_.states.clear(), journal_.looked_at.clear();
   journal_.mark += 2;
-  journal_.event = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.times.clear(), journal_.was_hopeless = false;
+  journal_.event = 0, journal_.quiet_events = 0, journal_.stirred = 0, journal_.at_once_max = 0, journal_.times.clear(), journal_.was_hopeless = false;
   holds_before_ = e.holds_, frozen_before_ = e.frozen_;
   clock_before_ = {e.now_, e.instant_begin_, e.events_at_once_, e.jam_count_, e.is_hopeless_, e.is_played_};
   counters_before_ = e.counters_;

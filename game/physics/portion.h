@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "game/physics/journal.h"
@@ -60,6 +61,12 @@ class Portion {
   /// Back to where the window began.
   void undo();
   const Journal& journal() const { return journal_; }
+  /// Free impacts of who stays in one of these rooms until `until` [s], if nothing else happens to it, are counted only.
+  void set_rooms(std::vector<Journal::Room> rooms, double until) { journal_.rooms = std::move(rooms), journal_.quiet_until = until; }
+  /// 1 + the room in which the body is; 0: all is entered that happens to it.
+  void set_room(std::uint32_t body, std::uint8_t room) { journal_.rooms_of[body] = room; }
+  /// Bodies of which something was entered, so that they have no room any more, since the last call.
+  std::vector<std::uint32_t> take_entered() { return std::exchange(journal_.entered, {}); }
 
   /// As of World: an event of `body`, and time. Goals end no call.
   void set_thrust(std::uint32_t bat, const Vector2& acceleration) { world_.set_thrust({bat}, acceleration); }
