@@ -34,10 +34,10 @@ void add_zones(const MatchSight& sight, const ZonesSeen& seen, Overlay& overlay)
 
 void add_lines(const ZonesSeen& seen, Overlay& overlay) {
   char words[160];
-  std::snprintf(words, sizeof words, "peer %u simulates its zone: %llu bodies, and %zu ghosts (orange) within %.2f m of it", seen.own_peer, static_cast<unsigned long long>(seen.own_count), seen.ghosts.size(), seen.halo);
+  std::snprintf(words, sizeof words, "peer %u has %llu bodies and %zu ghosts (orange), halo %.2f m", seen.own_peer, static_cast<unsigned long long>(seen.own_count), seen.ghosts.size(), seen.halo);
   overlay.lines.push_back(words);
   if (!seen.told.empty()) {
-    std::snprintf(words, sizeof words, "of %zu bodies beyond (green) their owners tell, as the player sees them", seen.told.size());
+    std::snprintf(words, sizeof words, "its player is told of %zu beyond (green)", seen.told.size());
     overlay.lines.push_back(words);
   }
   overlay.lines.push_back("I hides this");

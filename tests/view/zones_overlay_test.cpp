@@ -25,7 +25,7 @@ TEST(ZonesOverlay, ShowsEachZoneTheOwnHaloWithinTheFieldAndWhoseBodiesAreOthers)
   const OverlayRectangle& halo = overlay.rectangles[2];
   EXPECT_EQ(std::tuple(halo.low_x, halo.low_y, halo.high_x, halo.high_y), std::tuple(1.75, 0.0, 4.0, 2.0));
   EXPECT_EQ(overlay.discs.size(), 3u) << "the own bat, which is a ghost, and one told of";
-  EXPECT_THAT(overlay.lines[0], testing::HasSubstr("peer 1 simulates its zone: 7 bodies, and 1 ghosts"));
+  EXPECT_THAT(overlay.lines[0], testing::HasSubstr("peer 1 has 7 bodies and 1 ghosts"));
 }
 
 TEST(ZonesOverlay, HiddenMarksTheOwnBatOfACrowdAlone) {

@@ -143,7 +143,7 @@ void PeerMatch::show_things() {
   sight_.zones = news_->zones;
 }
 
-/// Whoever is near is foretold; all others are on their paths, in the others' time.
+/// Whoever is near is foretold; all others are on their paths, in the others' time, as far as these are known.
 void PeerMatch::show_thing(std::uint32_t body) {
   const Known& known = known_[body];
   const double others = rink_->now() - delay_;
@@ -154,7 +154,7 @@ void PeerMatch::show_thing(std::uint32_t body) {
     const ShownBody& shown = (known.kind == physics::BodyKind::bat ? rink_->bats() : rink_->pucks())[known.number];
     thing.position = shown.position, thing.velocity = shown.velocity;
   } else {
-    thing.position = known.at(others), thing.velocity = known.motion.velocity;
+    thing.position = known.at(std::min(others, news_->time)), thing.velocity = known.motion.velocity;
   }
   sight_.things.push_back(thing);
 }
