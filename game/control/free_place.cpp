@@ -31,6 +31,16 @@ std::optional<Vector2> nearest_free_disc(const physics::Simulator& simulator, co
   return first_free(simulator.spec().field, spot, radius / 4, [&](const Vector2& place) { return simulator.is_free(place, radius); });
 }
 
+std::vector<Vector2> places_for_disc(const physics::Field& field, const Vector2& spot, double radius, std::size_t first, std::size_t count) {
+  std::vector<Vector2> places;
+  std::size_t number = 0;
+  first_free(field, spot, radius / 4, [&](const Vector2& place) {
+    if (number++ >= first) places.push_back(place);
+    return places.size() == count;
+  });
+  return places;
+}
+
 std::optional<Vector2> nearest_free_rectangle(const physics::Simulator& simulator, const Vector2& spot, const Vector2& half_extent, physics::Half half) {
   const physics::Field& field = simulator.spec().field;
   const auto is_in_half = [&](const Vector2& place) {

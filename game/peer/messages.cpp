@@ -4,6 +4,7 @@
 #include <array>
 
 #include "game/peer/mirror.h"
+#include "game/peer/scoring.h"
 #include "game/peer/session.h"
 #include "game/physics/snapshot_stream.h"
 
@@ -66,8 +67,10 @@ std::vector<std::uint8_t> written(Claims message) { return bytes_from(message); 
 std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
 bool read(std::span<const std::uint8_t> bytes, PartChange& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }
@@ -84,8 +87,8 @@ std::size_t measured(const Claims& m) {
   return empty + m.bodies.size() * body + m.flights.size() * flight + m.presses.size() * press + checksum_size;
 }
 std::size_t measured(const Verdict& m) {
-  static const std::size_t empty = size_of<Verdict>();
-  return empty + m.listed.size() + checksum_size;
+  static const std::size_t empty = size_of<Verdict>(), goal = size_of<Goal>();
+  return empty + m.listed.size() + m.goals.size() * goal + checksum_size;
 }
 
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }

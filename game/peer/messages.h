@@ -95,6 +95,13 @@ struct Claims {
   std::vector<Press> presses;
 };
 
+/// A puck of the sender's own came to rest in a goal and is out of play.
+struct Goal {
+  double time = 0.0;  ///< s
+  std::uint32_t puck = 0;
+  bool is_left = false;
+};
+
 /// Whether the sender's run of the window can stand, by all claims that it has heard.
 struct Verdict {
   std::uint32_t window = 0;
@@ -108,6 +115,7 @@ struct Verdict {
   /// `listed_max`, or if there are so few peers that it does not matter.
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
+  std::vector<Goal> goals{};        ///< in this run
 };
 
 template <class Stream>
@@ -198,13 +206,18 @@ bool exchange(Stream& stream, Claims& message) {
 }
 
 template <class Stream>
+bool exchange(Stream& stream, Goal& goal) {
+  return stream.numbers(goal.time, goal.puck) && stream.truth(goal.is_left) && std::isfinite(goal.time);
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
   if (!stream.number(message.window) || !stream.truth(message.accepts) || !stream.numbers(message.halo, message.at_once_max) || !stream.truth(message.was_hopeless)) return false;
   if (!stream.number(message.events) || !stream.truth(message.leaves)) return false;
   if (!stream.size(message.listed) || message.listed.size() > Verdict::listed_max) return false;
   for (std::uint8_t& part : message.listed)
     if (!stream.number(part)) return false;
-  return true;
+  return exchange_list(stream, message.goals);
 }
 
 /// With a checksum at the end.

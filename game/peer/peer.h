@@ -66,6 +66,9 @@ class Peer {
   void keep_changes() { keeps_changes_ = true; }
   /// Of the own part, since the window before, or `is_whole`; its step is left out.
   PartChange change(bool is_whole) const;
+  /// After a commit: a puck that went into a goal, as its owner has it, is back in play at `place`, which is free for everybody.
+  void put_back(const Arrivals::Body& scored, const Vector2& place);
+  bool owns(std::uint32_t body) const { return roles_[body] == own; }
 
   /// Of a bat that it owns, before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
@@ -186,6 +189,7 @@ class Peer {
   void lay_out_paths();
   double first_difference(std::uint32_t ghost, std::span<const ClaimedFlight> claimed, std::vector<PathFlight>& beyond) const;
   bool may_touch_own(const PathFlight& flight) const;
+  std::vector<Goal> goals() const;
   std::vector<std::uint8_t> parts_of_events() const;
   std::uint64_t at_once_bound() const;
   double needed_halo() const;

@@ -160,7 +160,7 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
-  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events()};
+  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals()};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = usual_halo_;
@@ -171,6 +171,22 @@ const Verdict& Peer::judge() {
   }
   counters_.verdict_bytes += measured(verdict);
   return verdict;
+}
+
+/// In the run of this window.
+std::vector<Goal> Peer::goals() const {
+  const physics::World& world = portion_.world();
+  std::vector<Goal> goals;
+  if (world.spec().field.goal_width == 0.0) return goals;
+  std::vector<std::uint32_t> pucks;
+  for (const physics::Journal::KeptState& kept : portion_.journal().states)
+    if (roles_[kept.body] == own && kept.state.kind == physics::BodyKind::puck && !world.is_in_play({kept.body}) && !portion_.was_gone(kept.body)) pucks.push_back(kept.body);
+  std::sort(pucks.begin(), pucks.end());
+  for (const std::uint32_t puck : pucks) {
+    const physics::Motion last = world.motion({puck});
+    goals.push_back({last.time, puck, last.position.x() < 0.5 * world.spec().field.length});
+  }
+  return goals;
 }
 
 std::vector<std::uint8_t> Peer::parts_of_events() const {

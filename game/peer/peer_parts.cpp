@@ -61,4 +61,38 @@ PartChange Peer::change(bool is_whole) const {
   return change;
 }
 
+/// Nobody is in contact with it, and whoever has it from now on makes the same of what its owner had.
+void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
+  const std::uint32_t body = scored.number;
+  const bool was_own = roles_[body] == own;
+  for (std::vector<std::uint32_t>* list : {&owned_, &ghosts_}) std::erase(*list, body);
+  for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
+  if (!portion_.is_there(body)) portion_.put(body, scored.state);
+  extent_max_ = std::max(extent_max_, scored.state.extent().maxCoeff());
+  portion_.place(body, place);
+  const Box reach = Box::around(place, extent_of(body));
+  owners_[body] = division_.owner_of(place);
+  const auto insert = [body](std::vector<std::uint32_t>& list) { list.insert(std::upper_bound(list.begin(), list.end(), body), body); };
+  if (owners_[body] == number_) {
+    roles_[body] = own;
+    owned_.push_back(body);
+    homes_[body] = home_of(place, 0);
+    for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
+      if (peer != number_ && is_in_region(peer, reach)) insert(known_[peer]);
+    if (keeps_changes_) changed_.push_back(body);
+  } else if (is_in_region(number_, reach)) {
+    roles_[body] = ghost;
+    insert(ghosts_);
+  } else {
+    roles_[body] = away;
+    portion_.drop(body);
+  }
+  if (was_own && owners_[body] != number_) {
+    ++counters_.hand_overs;
+    if (keeps_changes_) left_.push_back(body);
+  }
+  if (!is_margin_fit()) choose_margin();
+  portion_.begin_window();
+}
+
 }  // namespace rink::peer

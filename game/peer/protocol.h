@@ -51,9 +51,10 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The steps of a window: `exchange(make)` lets everybody hear what everybody makes for each other, `agree` everybody's verdict, `when_final` is called before the arrivals are made.
+/// The steps of a window: `exchange(make)` lets everybody hear what everybody makes for each other, `agree` everybody's verdict, `when_final` is called before the
+/// arrivals are made, and may say where the `next` window ends.
 template <class Exchange, class Agree, class WhenFinal>
-void play_steps(Peer& peer, double next, Exchange&& exchange, Agree&& agree, WhenFinal&& when_final) {
+void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agree, WhenFinal&& when_final) {
   peer.play();
   for (;;) {
     exchange([&](PeerNumber to) { return peer.claims_for(to); });

@@ -10,7 +10,7 @@
 namespace rink::peer {
 
 Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail)
-    : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{0, 0, std::vector<PeerNumber>(settings_.peer_count), cuts}, before_(now_),
+    : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
       division_(cuts.division(settings_.peer_count)), mirrors_(settings_.peer_count), losses_(settings_.peer_count) {
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
   before_ = now_;
@@ -55,6 +55,8 @@ Message Session::heard(PeerNumber from) {
   }
 }
 
+template FaceOffWord Session::heard<FaceOffWord>(PeerNumber from);
+
 /// What `make(to)` makes goes to all members, and what they made is heard.
 template <class Make>
 void Session::exchange(Make&& make) {
@@ -82,18 +84,26 @@ void Session::advance() {
 }
 
 void Session::play_window() {
+  const std::uint64_t window = now_.window + 1;
+  while (now_.window < window && !has_left_) play_stretch();
+}
+
+void Session::play_stretch() {
   if (wishes_to_leave_) peer_->wish_to_leave();
   State next = now_;
+  double next_end = 0.0;
   const auto when_final = [&] {
-    next = after_window();
+    next = after_stretch();
+    next_end = stretch_end(next);
     if (next.zones == now_.zones) return;
     division_ = next.cuts.division(settings_.peer_count);
     peer_->divide(division_);
     counters_.shifts += next.members.size() == now_.members.size();
   };
-  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way.
-  const auto agree_all = [&] { settings_.is_mirrored ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
-  play_steps(*peer_, settings_.end_of(now_.window + 2), [&](auto&& make) { exchange(make); }, agree_all, when_final);
+  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way, unless there are goals to tell of.
+  const auto agree_all = [&] { settings_.is_mirrored || settings_.goals ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
+  play_steps(*peer_, next_end, [&](auto&& make) { exchange(make); }, agree_all, when_final);
+  if (settings_.goals) face_off(next);
   if (settings_.is_mirrored) {
     PartChange change = peer_->change(false);
     for (const PeerNumber leaver : now_.members)
@@ -110,9 +120,12 @@ void Session::play_window() {
 }
 
 /// Who wished to leave hands its zones over, and who had none in this window is not waited for any more.
-Session::State Session::after_window() const {
+Session::State Session::after_stretch() const {
   State next = now_;
-  ++next.step, ++next.window;
+  ++next.step;
+  next.time = peer_->now();
+  next.window += next.time == settings_.end_of(now_.window + 1);
+  count_goals(next);
   std::erase_if(next.members, [&](PeerNumber peer) { return !now_.cuts.has(peer); });
   for (const PeerNumber peer : now_.members) {
     const bool is_last = std::none_of(next.members.begin(), next.members.end(), [&](PeerNumber other) { return other != peer && next.cuts.has(other); });

@@ -11,6 +11,7 @@
 
 #include "game/peer/cuts.h"
 #include "game/peer/protocol.h"
+#include "game/peer/scoring.h"
 
 namespace rink::peer {
 
@@ -39,6 +40,7 @@ struct SessionSettings {
   std::uint32_t balance_windows = 0;        ///< after so many windows zones shift toward equal events per peer; 0: they stay
   std::vector<Key> keys{};                  ///< that all know from the start, of all bats
   std::vector<Seat> seats{};
+  std::optional<GoalRules> goals{};         ///< of a field that has some; windows must be shorter than the delay and the retry. The session is over with the window in which a side wins.
 };
 
 struct SessionCounters {
@@ -59,7 +61,9 @@ class Session {
   void advance();
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
-  bool is_over() const { return now_.window == settings_.window_count || has_left_; }
+  bool is_over() const { return has_left_ || is_complete(); }
+  /// After it: goals, and pucks that were still to come back.
+  const Scoring& scoring() const { return now_.scoring; }
 
   /// The own bodies go to others with the next window, and with the one after that this peer is no longer needed. It must be mirrored.
   void leave() { wishes_to_leave_ = true; }
@@ -84,6 +88,8 @@ class Session {
   /// What all agree on at a step.
   struct State {
     std::uint64_t step = 0, window = 0;
+    double time = 0.0;                  // where it ends, which is within the next window while a puck comes back
+    Scoring scoring{};
     std::vector<PeerNumber> members;  // those who leave among them
     Cuts cuts;
     std::uint64_t zones = 0;            // how often they changed
@@ -102,13 +108,22 @@ class Session {
   Message heard(PeerNumber from);
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
   void play_window();
-  State after_window() const;
+  void play_stretch();
+  bool is_complete() const { return now_.window == settings_.window_count || (now_.scoring.is_over && now_.time == settings_.end_of(now_.window)); }
+  State after_stretch() const;
   void balance(State& next) const;
   void mirror(const State& next, PartChange change);
   std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
   void keep_first_parts();
   void adopt(State next);
   bool is_member(PeerNumber peer, const State& state) const { return std::binary_search(state.members.begin(), state.members.end(), peer); }
+
+  // session_goals.cpp
+  double stretch_end(const State& state) const;
+  void count_goals(State& next) const;
+  void face_off(State& next);
+  bool put_back(const FaceOff& due);
+  std::uint64_t agree_on(FaceOffWord& word);
 
   // session_recovery.cpp
   void note_gone(PeerNumber peer, const std::string& what);

@@ -159,13 +159,13 @@ void Session::enter(const State& next, std::span<const Arrivals> shares) {
   for (PeerNumber peer = 0; peer < settings_.peer_count; ++peer) peer_->set_present(peer, is_member(peer, next));
   for (const Seat& seat : settings_.seats)
     if (is_member(seat.peer, next)) peer_->seat(seat);
-  const double time = next.window == 0 ? 0.0 : settings_.end_of(next.window);
+  const double time = next.time;
   peer_->enter(static_cast<std::uint32_t>(next.window), time);
   for (const Arrivals& share : shares) peer_->take(share);
   for (const Key& key : settings_.keys)
-    if (next.window == 0 || key.time > time) peer_->press_first(key);
+    if (next.time == 0.0 || key.time > time) peer_->press_first(key);
   peer_->keep_changes();
-  peer_->begin(settings_.end_of(next.window + 1));
+  peer_->begin(stretch_end(next));
 }
 
 /// Keys whose window was undone. Bats have other owners now, who tell.

@@ -49,6 +49,8 @@ class Portion {
   /// Between windows: puts the body there, or in another state; or takes it away. Holds are set apart.
   void put(std::uint32_t body, const BodyState& state);
   void drop(std::uint32_t body);
+  /// Between windows: as World::place, of a puck that is there.
+  void place(std::uint32_t puck, const Vector2& position) { world_.place({puck}, position, {0.0, 0.0}); }
   /// All rest contacts; those that are set need no order, and whoever is in one must be there.
   const std::vector<Hold>& holds() const;
   const std::vector<Hold>& holds_before() const { return holds_before_; }

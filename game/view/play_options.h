@@ -40,8 +40,9 @@ inline void add_peer_options(CLI::App& app, PlayOptions& options, const std::vec
   first(app.add_option("--peers", terms.peer_count, "how many there will be, those who only compute or play bots among them; the first one's to say")->check(CLI::Range(2u, game::peers_max)));
   first(app.add_option("--until", terms.until, "simulated time at which to stop [s]; the first one's to say")->check(game::number_from(1e-6, game::seconds_max)));
   first(app.add_option("--window", terms.window, "simulated time from one agreement to the next [s]: a key is felt one to two windows later; the first one's to say")->check(game::number_from(1e-3, 1.0)));
-  app.add_option("--scene", options.sharing.scene, "a scene file or the name of a preset, without goals; the same for all peers")->group(group)->capture_default_str();
-  app.add_option("--bats", options.sharing.bats, "scale the crowd to so many bats at constant density; 0: as it is; the same for all peers")->check(CLI::Range(0u, game::bats_max))->group(group)->capture_default_str();
+  options.sharing.scene = "match";
+  app.add_option("--scene", options.sharing.scene, "a scene file or the name of a preset; the same for all peers")->group(group)->capture_default_str();
+  app.add_option("--bats", options.sharing.bats, "scale a crowd to so many bats at constant density; 0: as it is; the same for all peers")->check(CLI::Range(0u, game::bats_max))->group(group)->capture_default_str();
   app.add_option("--record", options.sharing.record, "write everybody's keys and the final hash to this key log; rink simulate --keys plays the same game")->type_name("FILE")->group(group);
   app.add_option("--patience", options.sharing.patience_s, "how long another peer may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->group(group)->capture_default_str();
 }

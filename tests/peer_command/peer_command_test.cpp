@@ -103,10 +103,10 @@ TEST_F(PeerCommand, RefusesOtherScenesAndOneTooManyByNameAndGoesOn) {
 }
 
 TEST_F(PeerCommand, SaysWhatItCannotPlay) {
-  const Process& goals = start({"--listen", "127.0.0.1:0"}, "crowd");
+  const Process& goals = start({"--listen", "127.0.0.1:0", "--window", "0.2"}, "crowd");
   ASSERT_TRUE(ends(goals));
   EXPECT_EQ(goals.ending()->exit_status, 2);
-  EXPECT_THAT(goals.last_words(), HasSubstr("scene 'crowd' has goals (field.goal_width)"));
+  EXPECT_THAT(goals.last_words(), HasSubstr("windows are 0.200000 s long: expected shorter ones"));
   const Process& alone = start({"--join", "127.0.0.1:1"});
   ASSERT_TRUE(ends(alone));
   EXPECT_EQ(alone.ending()->exit_status, static_cast<int>(ExitStatus::no_server));

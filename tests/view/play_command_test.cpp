@@ -131,7 +131,7 @@ TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
                                                        {"--peer 127.0.0.1:1", "no peer answers at 127.0.0.1:1: refused"},
                                                        {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
                                                        {"--peer-listen 0.0.0.0:0", "nobody can connect to 0.0.0.0"},
-                                                       {"--peer-listen 127.0.0.1:0 --scene match", "has goals"},
+                                                       {"--peer-listen 127.0.0.1:0 --window 0.5", "expected shorter ones"},
                                                        {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
                                                        {"--replay altered.keys", "altered.keys"},
                                                        {"--replay missing.keys", "missing.keys"}};
@@ -156,9 +156,9 @@ TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
   const std::string port = std::to_string(40'000 + getpid() % 20'000);
   std::ofstream(file("second")) << "4.5 down w\n4.9 up w\n9 end\n";
   const std::string joining = "cd " + folder_.string() + " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; done; " + test::binary_folder() +
-                              "/bin/rink-play --offscreen --size 320x240 --bats 8 --peer 127.0.0.1:" + port + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
+                              "/bin/rink-play --offscreen --size 320x240 --scene arena --bats 8 --peer 127.0.0.1:" + port + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
-  ASSERT_EQ(play("--bats 8 --peer-listen 127.0.0.1:" + port + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
+  ASSERT_EQ(play("--scene arena --bats 8 --peer-listen 127.0.0.1:" + port + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
   for (int i = 0; i < 200 && !std::filesystem::exists(file("second_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::string first = test::text_of(file("first_out")), second = test::text_of(file("second_out"));
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file("first.keys")));

@@ -39,9 +39,12 @@ void HandPlayer::after_window(const peer::Session& session) {
 /// What was undone with a window when somebody was lost went again with the claims of the one that was played just now.
 void HandPlayer::count_felt(const peer::Session& session) {
   const double now = session.peer().now();
-  for (Sent& sent : sent_)
-    if (sent.window >= session.window()) sent.window = session.window(), sent.stamp = std::max(now, sent.wanted);
-  for (; !sent_.empty() && sent_.front().window < session.window() && sent_.front().stamp <= now; sent_.pop_front()) felt_.press(sent_.front().key, sent_.front().is_down);
+  if (session.lost().size() != std::exchange(lost_, session.lost().size()))
+    for (Sent& sent : sent_)
+      if (sent.window >= session.window()) sent.window = session.window(), sent.stamp = std::max(now, sent.wanted);
+  // What is stamped with the very end of the window with whose claims it went is felt in the next one.
+  const auto is_felt = [&](const Sent& sent) { return sent.stamp < now || (sent.stamp == now && sent.window < session.window()); };
+  for (; !sent_.empty() && is_felt(sent_.front()); sent_.pop_front()) felt_.press(sent_.front().key, sent_.front().is_down);
 }
 
 PeerSight HandPlayer::sight_of(const peer::Session& session) const {
@@ -49,6 +52,7 @@ PeerSight HandPlayer::sight_of(const peer::Session& session) const {
   PeerSight sight{.time = peer.now(), .since = since_, .window = session.window(), .bodies = {}, .own_bat = glimpse_.bat, .own_held = felt_.keys(), .own_felt = felt_.input_count(), .zones = {}};
   sight.own_position = glimpse_.position, sight.own_velocity = glimpse_.velocity;
   sight.bytes_sent = bytes_sent();
+  sight.goals_left = session.scoring().left, sight.goals_right = session.scoring().right;
   sight.bodies.reserve(peer.owned().size() + peer.ghosts().size());
   add_bodies(peer, peer.owned(), KnownBody::Source::own, sight);
   add_bodies(peer, peer.ghosts(), KnownBody::Source::ghost, sight);

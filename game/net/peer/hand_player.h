@@ -42,6 +42,7 @@ class HandPlayer final : public Onlooker {
   std::vector<HandPress> waiting_;  ///< until somebody shows the bat
   std::deque<Sent> sent_;
   std::uint64_t presses_ = 0;
+  std::size_t lost_ = 0;            ///< peers
   double since_ = 0.0;
 };
 

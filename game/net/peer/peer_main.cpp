@@ -106,9 +106,9 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
   return report;
 }
 
-void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part, const game::Terms& terms) {
+void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part) {
   if (options.record.empty()) return;
-  game::write_key_log(std::filesystem::path(options.record), shared.record_of(part, game::scene_text(options.scene), terms.until));
+  game::write_key_log(std::filesystem::path(options.record), shared.record_of(part, game::scene_text(options.scene)));
 }
 
 /// From the first word to the last; whoever is connected is told why it ends early.
@@ -136,7 +136,7 @@ game::ExitStatus share(const Options& options, const game::SharedGame& shared, g
     // First what cannot be had again, should the file refuse.
     std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
     if (std::fflush(stdout) != 0) spdlog::error("the report could not be written to the standard output");
-    if (!part.has_left) write_record(options, shared, part, meeting.terms());
+    if (!part.has_left) write_record(options, shared, part);
     return part.has_left ? game::ExitStatus::interrupted : game::ExitStatus::ok;
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
@@ -211,6 +211,7 @@ game::ExitStatus run(const Options& options) {
   game::require_writable("--record", options.record);
   if (options.transport == "mpi") return share_among_ranks(options);
   const game::SharedGame shared = game_of(options);
+  if (options.join.empty()) shared.require_window(options.terms.window);
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
   if (options.bots > 0 && shared.has_keys()) throw std::invalid_argument("--bots: the scene or the key log has keys already, and nobody can play beside them");
@@ -245,7 +246,7 @@ void add_options(CLI::App& app, Options& options) {
                   "one engine has. The first one says how many and how long; all others join through any that is there. When all are there they play, each prints what it did\n"
                   "and the hash of the whole, which is that of rink simulate.");
   app.name("rink peer");
-  app.add_option("--scene", options.scene, "a scene file or the name of a preset; the same for all, without goals")->required();
+  app.add_option("--scene", options.scene, "a scene file or the name of a preset; the same for all")->required();
   app.add_option("--keys", options.keys, "a recorded key log to play, the same for all (default: the scene's scripted keys only)");
   app.add_option("--bots", options.bots, "how many bats this peer plays, the next ones that are free; 0: it only computes")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
   app.add_option("--players", options.players, "who plays them, in turn, separated by commas: random" + player_names() + "; seeded like the scene")

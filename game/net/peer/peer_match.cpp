@@ -140,7 +140,10 @@ void PeerMatch::show_things() {
   for (const Thing& thing : all_things_)
     if (thing.kind == physics::BodyKind::post) sight_.things.push_back(thing);
     else if (known_[thing.id].window == news_->window || thing.id == news_->own_bat) show_thing(thing.id);
+  const auto is_scored = [&](const Thing& thing) { return thing.kind == physics::BodyKind::puck && (thing.position.x() < 0.0 || thing.position.x() > sight_.field.length); };
+  std::erase_if(sight_.things, is_scored);
   sight_.zones = news_->zones;
+  sight_.score = {news_->goals_left, news_->goals_right};
 }
 
 /// Whoever is near is foretold; all others are on their paths, in the others' time, as far as these are known.
@@ -177,6 +180,8 @@ void PeerMatch::show_stage(double now_s) {
     std::snprintf(words, sizeof words, "The game stands: for %.1f s no window has been agreed upon with the other peers", silent_s);
     sight_.notice = words;
   }
+  const auto& [left, right] = sight_.score;
+  if (stage_.step == Step::over && sight_.goals_to_win && std::max(left, right) >= *sight_.goals_to_win) sight_.winner = left > right ? Team::left : Team::right;
   if (!stage_.player) return;
   const Bat& own = game_.scene().bodies.bats[*stage_.player];
   sight_.own_thing = game_.start().bat(*stage_.player)->index;

@@ -31,6 +31,7 @@ struct PeerSight {
   Vector2 own_position{0.0, 0.0}, own_velocity{0.0, 0.0};
   KeysHeld own_held;               ///< by what the bat has felt
   std::uint32_t own_felt = 0;      ///< keys
+  std::uint32_t goals_left = 0, goals_right = 0;
   ZonesSeen zones;
   std::uint64_t bytes_sent = 0;
 };

@@ -32,6 +32,7 @@ std::uint64_t unguessable_number() {
 PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)()) : settings_(settings), now_s_(now_s), game_(scene_of(settings), {}), match_(game_, hand_) {
   if (game_.bat_count() == 0) throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
   if (game_.has_keys()) throw SceneError("scene '" + settings.scene + "' has keys already, and nobody can play beside them");
+  if (settings.join.empty()) game_.require_window(settings.terms.window);
   Place place = listening_place(settings.listen, settings.join, true, {.listen = "--peer-listen", .join = "--peer"});
   place.port = sockets_.listen(place.address, place.port);
   hand_.say("listening on " + place.text() + "\n");
@@ -107,7 +108,7 @@ void PlayingPeer::end(const PlayedPart& part) {
 }
 
 void PlayingPeer::write_record(const PlayedPart& part) {
-  if (!settings_.record.empty()) write_key_log(std::filesystem::path(settings_.record), game_.record_of(part, scene_text(settings_.scene), meeting_->terms().until));
+  if (!settings_.record.empty()) write_key_log(std::filesystem::path(settings_.record), game_.record_of(part, scene_text(settings_.scene)));
 }
 
 }  // namespace rink::game

@@ -16,7 +16,7 @@
 namespace rink::game {
 
 struct PlayingPeerSettings {
-  std::string scene = "arena";  ///< see load_scene; the same for all peers
+  std::string scene = "match";  ///< see load_scene; the same for all peers
   std::uint32_t bats = 0;       ///< scaled to so many, if not 0
   std::string join;             ///< HOST:PORT of any peer that is there; empty: become the first one
   std::string listen;           ///< ADDRESS:PORT where others reach this one; may be empty if there is `join`, of peers on this machine

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "game/control/free_place.h"
 #include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
@@ -20,10 +21,7 @@ std::vector<InputEvent> merged(std::vector<InputEvent> keys, const std::vector<I
   return keys;
 }
 
-const Scene& shareable(const Scene& scene) {
-  if (scene.world.field.goal_width > 0.0) throw SceneError("scene '" + scene.name + "' has goals (field.goal_width), and peers cannot yet bring scored pucks back: expected a scene without, such as arena");
-  return scene;
-}
+bool has_goals(const Scene& scene) { return scene.world.field.goal_width > 0.0; }
 
 BatController controller_of(const Scene& scene, std::uint32_t player) { return BatController(scene.bodies.bats[player].thrust); }
 
@@ -52,7 +50,7 @@ class Membership {
 
 }  // namespace
 
-SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(shareable(scene)), keys_(merged(scene.keys, recorded)), start_(scene) {
+SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(scene), keys_(merged(scene.keys, recorded)), start_(scene) {
   for (const InputEvent& key : keys_)
     if (key.kind == InputKind::enter || key.kind == InputKind::leave)
       throw SceneError("player " + std::to_string(key.player) + (key.kind == InputKind::enter ? " enters" : " leaves") + " at " + std::to_string(key.time) +
@@ -83,6 +81,23 @@ double SharedGame::first_halo(double window) const {
   return 4.0 * extent + 2.0 * speed * window + 1e-3;
 }
 
+/// As Game's: on the spot of the side that conceded, or at the nearest free place.
+std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
+  if (!has_goals(scene_)) return std::nullopt;
+  const MatchRules& rules = scene_.rules;
+  const double shortest = std::min(rules.face_off_delay, Game::placement_retry);
+  if (window > shortest)
+    throw SceneError("scene '" + scene_.name + "' has pucks come back " + std::to_string(shortest) + " s after they could not, or after a goal, and windows are " + std::to_string(window) + " s long: expected shorter ones");
+  const physics::Field field = scene_.world.field;
+  const double from_end = rules.face_off_distance * field.length;
+  return peer::GoalRules{.goals_to_win = rules.goals_to_win,
+                         .face_off_delay = rules.face_off_delay,
+                         .placement_retry = Game::placement_retry,
+                         .places = [field, from_end](bool is_left, double radius, std::size_t first, std::size_t count) {
+                           return places_for_disc(field, {is_left ? from_end : field.length - from_end, field.width / 2}, radius, first, count);
+                         }};
+}
+
 std::vector<peer::Key> SharedGame::thrusts() const {
   std::vector<BatController> players;
   for (std::uint32_t k = 0; k < start_.player_count(); ++k) players.push_back(controller_of(scene_, k));
@@ -94,14 +109,16 @@ std::vector<peer::Key> SharedGame::thrusts() const {
   return keys;
 }
 
-std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until) const {
+std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until, const peer::Scoring& scoring) const {
   std::vector<BatController> players;
   std::vector<const BatController*> hands;
   for (std::uint32_t k = 0; k < start_.player_count(); ++k) players.push_back(controller_of(scene_, k));
   for (const InputEvent& event : keys)
     if (event.time <= until) players[event.player].press(event.key, event.kind == InputKind::key_down);
   for (const BatController& player : players) hands.push_back(&player);
-  return begun_game_hash(world, start_.entities(), hands, {}).value();
+  StateHash hash = begun_game_hash(world, start_.entities(), hands, {scoring.left, scoring.right});
+  for (const peer::FaceOff& due : scoring.face_offs) hash.add(due.time), hash.add(std::uint64_t{due.puck});
+  return hash.value();
 }
 
 std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
@@ -119,6 +136,7 @@ std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
 }
 
 std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division, peer::PeerNumber number, double window) const {
+  if (has_goals(scene_)) throw SceneError("scene '" + scene_.name + "' has goals (field.goal_width), which only peers of a session count: expected a scene without, such as arena");
   const physics::World& whole = start_.world();
   auto peer = std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(), first_halo(window));
   for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer->consider(body, physics::Portion::state_in(whole, body));
@@ -145,6 +163,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.balance_windows = terms.balance_windows;
   settings.keys = thrusts();
   settings.seats = seats(guests);
+  settings.goals = goal_rules(terms.window);
   peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
   const Guest& self = guests[number];
   Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, terms.until);
@@ -161,7 +180,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   PlayedPart part;
   part.has_left = session.has_left();
   part.was_last = part.has_left && session.members().size() == 1;
-  if (!session.has_left()) end(terms, session, part);
+  if (!session.has_left()) end(session, part);
   membership.tell();
   part.counters = session.counters();
   part.lost = session.lost();
@@ -171,10 +190,10 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   return part;
 }
 
-KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_text, double until) const {
+KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_text) const {
   KeyLog log = key_log_for(scene_);
   log.scene_text = scene_text;
-  log.until = until;
+  log.until = part.time;
   log.hash = part.hash;
   log.events = part.keys;
   // Whoever has the scene has these.
@@ -184,14 +203,15 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 }
 
 /// Everybody has told everybody what it has, and what its players did.
-void SharedGame::end(const Terms& terms, peer::Session& session, PlayedPart& part) const {
+void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   const std::vector<peer::Arrivals> parts = session.end();
   const physics::World& whole = start_.world();
   const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
   part.result_bytes = measured(parts[session.peer().number()]) * (session.members().size() - 1);
   part.keys = keys_with(parts);
-  part.hash = hash(*world, part.keys, terms.until);
+  part.hash = hash(*world, part.keys, session.peer().now(), session.scoring());
+  part.score = {session.scoring().left, session.scoring().right};
 }
 
 }  // namespace rink::game

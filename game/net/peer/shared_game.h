@@ -27,6 +27,7 @@ struct PlayedPart {
   std::uint64_t result_bytes = 0;       ///< sent, with the own bodies' last states
   std::uint64_t hash = 0;               ///< of the whole: Game::hash(), as rink simulate prints it
   std::uint64_t presses = 0;            ///< of the own bots
+  Score score;
   std::vector<InputEvent> keys;         ///< of all live players, as their owners stamped them, and all recorded ones; ordered by time, then player
 };
 
@@ -52,7 +53,7 @@ struct Manner {
 /// The same for all who are given the same scene and keys.
 class SharedGame {
  public:
-  /// `recorded` keys come beside the scene's own. Throws SceneError for what peers cannot share: goals, and players who enter or leave.
+  /// `recorded` keys come beside the scene's own. Throws SceneError for what peers cannot share: players who enter or leave, and pucks that would come back sooner than agreed upon.
   SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded);
 
   Luggage luggage() const;
@@ -64,22 +65,25 @@ class SharedGame {
   /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, peer::Halt, and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
 
-  /// Everybody's keys as a log of the game that one engine plays likewise; `scene_text` is the scene's file, `until` where it ended [s].
-  KeyLog record_of(const PlayedPart& part, const std::string& scene_text, double until) const;
+  /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
+  void require_window(double window) const { goal_rules(window); }
+  /// Everybody's keys as a log of the game that one engine plays likewise; `scene_text` is the scene's file.
+  KeyLog record_of(const PlayedPart& part, const std::string& scene_text) const;
 
   /// What playing it is made of, for those who do so step by step: the game at its start; a peer that owns its part by `division` and knows all keys, whose first window ends with
   /// the first `window` [s]; and Game::hash() of a world that has come to `until` [s] under the keys that all know.
   const Game& start() const { return start_; }
   std::unique_ptr<peer::Peer> peer(const peer::Division& division, peer::PeerNumber number, double window) const;
-  std::uint64_t hash(std::uint64_t world, double until) const { return hash(world, keys_, until); }
+  std::uint64_t hash(std::uint64_t world, double until) const { return hash(world, keys_, until, {}); }
 
  private:
   double first_halo(double window) const;
+  std::optional<peer::GoalRules> goal_rules(double window) const;
   std::vector<peer::Key> thrusts() const;
   std::vector<peer::Seat> seats(std::span<const Guest> guests) const;
   std::vector<InputEvent> keys_with(std::span<const peer::Arrivals> logs) const;
-  std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until) const;
-  void end(const Terms& terms, peer::Session& session, PlayedPart& part) const;
+  std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until, const peer::Scoring& scoring) const;
+  void end(peer::Session& session, PlayedPart& part) const;
 
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them
