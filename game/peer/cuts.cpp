@@ -8,16 +8,12 @@
 
 namespace rink::peer {
 
-namespace {
-
-std::pair<Box, Box> parts_of(const Box& box, bool is_along_x, double side) {
+std::pair<Box, Box> Cuts::parts_of(const Box& box, bool is_along_x, double side) {
   Box below = box, above = box;
   (is_along_x ? below.high_x : below.high_y) = side;
   (is_along_x ? above.low_x : above.low_y) = side;
   return {below, above};
 }
-
-}  // namespace
 
 Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places, PeerNumber peer_count) {
   Cuts cuts(field);
@@ -69,26 +65,60 @@ std::vector<PeerNumber> Cuts::peers_below(std::size_t node) const {
   return peers;
 }
 
+std::vector<PeerNumber> Cuts::peers() const {
+  std::vector<PeerNumber> all = peers_below(root_);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 bool Cuts::has(PeerNumber peer) const {
   const std::vector<PeerNumber> all = peers_below(root_);
   return std::find(all.begin(), all.end(), peer) != all.end();
 }
 
+/// The leaf of `peer`, and where it is.
+const Cuts::Node* Cuts::find(std::size_t node, const Box& box, PeerNumber peer, Box& found) const {
+  const Node& here = nodes_[node];
+  if (is_leaf(node)) return found = box, here.peer == peer ? &here : nullptr;
+  const auto [below, above] = parts_of(box, here.is_along_x, here.side);
+  const Node* leaf = find(here.low, below, peer, found);
+  return leaf ? leaf : find(here.high, above, peer, found);
+}
+
+double Cuts::area_of(PeerNumber peer) const {
+  Box box{};
+  return find(root_, {0.0, 0.0, field_.length, field_.width}, peer, box) ? (box.high_x - box.low_x) * (box.high_y - box.low_y) : 0.0;
+}
+
+/// A part at the end of `nodes`, without a leaf that is left out.
+std::size_t Cuts::copied(std::size_t node, PeerNumber left_out, std::vector<Node>& nodes) const {
+  const auto is_out = [&](std::size_t part) { return is_leaf(part) && nodes_[part].peer == left_out; };
+  if (!is_leaf(node) && is_out(nodes_[node].low)) return copied(nodes_[node].high, left_out, nodes);
+  if (!is_leaf(node) && is_out(nodes_[node].high)) return copied(nodes_[node].low, left_out, nodes);
+  const std::size_t copy = nodes.size();
+  nodes.push_back(nodes_[node]);
+  if (is_leaf(node)) return nodes[copy].low = copy;
+  const std::size_t low = copied(nodes_[node].low, left_out, nodes), high = copied(nodes_[node].high, left_out, nodes);
+  nodes[copy].low = low, nodes[copy].high = high;
+  return copy;
+}
+
 Cuts Cuts::without(PeerNumber peer) const {
   assert(has(peer) && !is_leaf(root_));
+  Cuts cuts(field_);
+  cuts.root_ = copied(root_, peer, cuts.nodes_);
+  return cuts;
+}
+
+Cuts Cuts::with(PeerNumber newcomer, PeerNumber of) const {
+  assert(!has(newcomer) && has(of));
   Cuts cuts = *this;
-  const auto is_it = [&](std::size_t node) { return is_leaf(node) && nodes_[node].peer == peer; };
-  const auto bypass = [&](std::size_t& link) {
-    if (is_leaf(link)) return;
-    if (is_it(nodes_[link].low)) link = nodes_[link].high;
-    else if (is_it(nodes_[link].high)) link = nodes_[link].low;
-  };
-  for (Node& node : cuts.nodes_) {
-    if (&cuts.nodes_[node.low] == &node) continue;
-    bypass(node.low);
-    bypass(node.high);
-  }
-  bypass(cuts.root_);
+  Box box{};
+  const auto node = static_cast<std::size_t>(find(root_, {0.0, 0.0, field_.length, field_.width}, of, box) - nodes_.data());
+  const bool is_long = box.high_x - box.low_x >= box.high_y - box.low_y;
+  const double side = is_long ? 0.5 * (box.low_x + box.high_x) : 0.5 * (box.low_y + box.high_y);
+  for (const PeerNumber peer : {of, newcomer}) cuts.nodes_.push_back({.low = cuts.nodes_.size(), .peer = peer});
+  cuts.nodes_[node] = {.low = nodes_.size(), .high = nodes_.size() + 1, .is_along_x = is_long, .side = side, .peer = 0};
   return cuts;
 }
 

@@ -68,6 +68,8 @@ std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message);
 std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(Entry message) { return bytes_from(message); }
+bool read(std::span<const std::uint8_t> bytes, Entry& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, PartChange& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) { return read_whole(bytes, message); }
@@ -88,7 +90,14 @@ std::size_t measured(const Claims& m) {
 }
 std::size_t measured(const Verdict& m) {
   static const std::size_t empty = size_of<Verdict>(), goal = size_of<Goal>();
-  return empty + m.listed.size() + m.goals.size() * goal + checksum_size;
+  std::size_t said = 0;
+  if (!m.admission.is_empty()) {
+    Measure measure;
+    Admission admission = m.admission;
+    exchange(measure, admission);
+    said = measure.byte_count();
+  }
+  return empty + m.listed.size() + m.goals.size() * goal + said + checksum_size;
 }
 
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }

@@ -1,6 +1,7 @@
 // What peers tell each other, as plain values; each has one function that writes, reads and measures it.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -102,6 +103,23 @@ struct Goal {
   bool is_left = false;
 };
 
+/// Who asks to be let in while others play.
+struct Newcomer {
+  static constexpr std::size_t place_max = 320;
+  std::uint64_t token = 0;                       ///< that it chose, and nobody else has
+  std::uint32_t bat_count = 0, puck_count = 0, hand_count = 0;  ///< it wishes to play so many bats, each looking at so many pucks, so many of them by hand
+  std::vector<std::uint8_t> place{};             ///< where others reach it, in the words of those who carry the mail
+};
+
+/// What a peer says of newcomers with a verdict.
+struct Admission {
+  static constexpr std::size_t asking_max = 8;
+  std::vector<Newcomer> asking{};                ///< at the sender, that all shall know of
+  std::vector<std::uint32_t> reached{};          ///< candidates to which the sender is connected
+  std::vector<std::uint32_t> withdrawn{};        ///< its own that are gone again
+  bool is_empty() const { return asking.empty() && reached.empty() && withdrawn.empty(); }
+};
+
 /// Whether the sender's run of the window can stand, by all claims that it has heard.
 struct Verdict {
   std::uint32_t window = 0;
@@ -116,6 +134,7 @@ struct Verdict {
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
   std::vector<Goal> goals{};        ///< in this run
+  Admission admission{};            ///< costs nothing where it is empty
 };
 
 template <class Stream>
@@ -211,9 +230,27 @@ bool exchange(Stream& stream, Goal& goal) {
 }
 
 template <class Stream>
+bool exchange(Stream& stream, Newcomer& newcomer) {
+  const bool is_good = stream.numbers(newcomer.token, newcomer.bat_count, newcomer.puck_count, newcomer.hand_count) && newcomer.hand_count <= newcomer.bat_count;
+  return is_good && stream.size(newcomer.place) && newcomer.place.size() <= Newcomer::place_max &&
+         std::all_of(newcomer.place.begin(), newcomer.place.end(), [&](std::uint8_t& byte) { return stream.number(byte); });
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Admission& admission) {
+  const auto exchange_numbers = [&](std::vector<std::uint32_t>& peers) {
+    return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) { return stream.number(peer); });
+  };
+  return exchange_list(stream, admission.asking) && admission.asking.size() <= Admission::asking_max && exchange_numbers(admission.reached) && exchange_numbers(admission.withdrawn);
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
   if (!stream.number(message.window) || !stream.truth(message.accepts) || !stream.numbers(message.halo, message.at_once_max) || !stream.truth(message.was_hopeless)) return false;
-  if (!stream.number(message.events) || !stream.truth(message.leaves)) return false;
+  auto further = static_cast<std::uint8_t>((message.leaves ? 1 : 0) + (message.admission.is_empty() ? 0 : 2));
+  if (!stream.number(message.events) || !stream.number(further) || further > 3) return false;
+  message.leaves = (further & 1) != 0;
+  if ((further & 2) != 0 && !exchange(stream, message.admission)) return false;
   if (!stream.size(message.listed) || message.listed.size() > Verdict::listed_max) return false;
   for (std::uint8_t& part : message.listed)
     if (!stream.number(part)) return false;

@@ -118,15 +118,16 @@ void Peer::play_keys(double until) {
 
 /// The same decision everywhere, for all have heard the same.
 Outcome Peer::conclude() {
-  const auto is_whole = [](double halo) { return halo == infinity; };
-  bool is_hopeless = false, is_final = true;
+  bool is_hopeless = false, is_final = true, are_whole = true;
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
     if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = halos_[peer]};
     const Verdict& verdict = verdicts_[peer];
     is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
+    // Of those who are not there no two need think the same.
+    are_whole = are_whole && (halos_[peer] == infinity || !is_present_[peer]);
   }
   // The engine's last resorts against endless series at one instant count what happens in the whole field.
-  const bool needs_whole = (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !std::all_of(halos_.begin(), halos_.end(), is_whole);
+  const bool needs_whole = (at_once_bound() >= physics::events_at_once_local || is_hopeless) && !are_whole;
   for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer) {
     is_repeating_[peer] = needs_whole || !verdicts_[peer].accepts;
     if (needs_whole) halos_[peer] = infinity;

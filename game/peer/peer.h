@@ -58,9 +58,10 @@ class Peer {
   /// Between windows: who plays on. Nothing is expected of the others, who have no zones.
   void set_present(PeerNumber peer, bool is_present) { is_present_[peer] = is_present; }
   bool is_present(PeerNumber peer) const { return is_present_[peer]; }
-  /// With the next verdicts.
-  void wish_to_leave() { wishes_to_leave_ = true; }
-  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these. The same at all peers.
+  /// With the next verdicts, until told otherwise.
+  void wish_to_leave(bool wishes) { wishes_to_leave_ = wishes; }
+  void announce(Admission admission) { admission_ = std::move(admission); }
+  /// After `conclude` said final, before the arrivals: from the window's end on, zones are these, perhaps for more peers, who are not present yet. The same at all peers.
   void divide(const Division& division);
   /// From now on `change` tells what each commit changed; a first one, after `begin`, tells all.
   void keep_changes() { keeps_changes_ = true; }
@@ -73,7 +74,7 @@ class Peer {
   /// Of a bat that it owns, before the first window.
   void press_first(const Key& key) { keys_.push_back(key); }
 
-  /// Before the first window, the same at all peers: who plays the bat. One player for each.
+  /// Between windows, the same at all peers: who plays the bat. One player for each.
   void seat(const Seat& seat) { seats_.push_back(seat); }
   /// What the own players may see now, since the last commit.
   const std::vector<Glimpse>& glimpses() const { return glimpses_; }
@@ -205,6 +206,7 @@ class Peer {
   void note_log();
 
   // peer_parts.cpp
+  void make_room(PeerNumber peer_count);
   void note_changed();
 
   physics::Portion portion_;
@@ -219,6 +221,7 @@ class Peer {
   std::vector<double> halos_;       // by peer
   std::vector<bool> is_repeating_, is_present_;
   bool wishes_to_leave_ = false, keeps_changes_ = false;
+  Admission admission_;
   std::vector<std::uint32_t> changed_, left_;      // in the last commit: own bodies whose states changed, or that came; and those that went
   std::vector<std::uint32_t> flown_;               // likewise: that free impacts alone changed
   std::vector<std::uint8_t> roles_, homes_, end_homes_, is_edge_;  // homes: 1 + number of the own zone in which a body is at home; 0 if in none, or if it has companions

@@ -160,7 +160,7 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
-  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals()};
+  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = usual_halo_;
@@ -192,7 +192,7 @@ std::vector<Goal> Peer::goals() const {
 std::vector<std::uint8_t> Peer::parts_of_events() const {
   std::vector<std::uint8_t> parts;
   const std::vector<double>& times = portion_.journal().times;
-  if (division_.peer_count() <= few_peers || times.size() > Verdict::listed_max) return parts;
+  if (static_cast<PeerNumber>(std::count(is_present_.begin(), is_present_.end(), true)) <= few_peers || times.size() > Verdict::listed_max) return parts;
   for (const double time : times) parts.push_back(static_cast<std::uint8_t>(std::clamp(256.0 * (time - start_) / (end_ - start_), 0.0, 255.0)));
   return parts;
 }

@@ -23,9 +23,18 @@ void Peer::take(const Arrivals& part) {
   keys_.insert(keys_.end(), part.keys.begin(), part.keys.end());
 }
 
+/// Who comes has no halo of its own until its first verdict, nor a zone.
+void Peer::make_room(PeerNumber peer_count) {
+  halos_.resize(peer_count, usual_halo_);
+  is_repeating_.resize(peer_count, false), is_present_.resize(peer_count, false);
+  known_.resize(peer_count), coming_.resize(peer_count), presses_.resize(peer_count);
+  claims_.resize(peer_count), verdicts_.resize(peer_count), arrivals_.resize(peer_count);
+}
+
 /// All own bodies are looked at anew.
 void Peer::divide(const Division& division) {
-  assert(division.peer_count() == division_.peer_count());
+  assert(division.peer_count() >= division_.peer_count());
+  if (division.peer_count() > division_.peer_count()) make_room(division.peer_count());
   division_ = division;
   margin_ = -1.0;
   outskirts_.clear();

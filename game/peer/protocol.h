@@ -11,6 +11,9 @@
 
 namespace rink::peer {
 
+struct Candidate;
+struct State;
+
 /// What one peer has to each of the others: bytes go whole and in order.
 class Mail {
  public:
@@ -26,6 +29,20 @@ class Mail {
   virtual std::vector<std::vector<std::uint8_t>> share(PeerNumber own, PeerNumber peer_count, std::vector<std::uint8_t> bytes);
   /// Nothing more will be said to `peer`, nor heard of it. `is_lost`: and it shall notice, if it is still there; otherwise it leaves by itself.
   virtual void part(PeerNumber /*peer*/, bool /*is_lost*/) {}
+  /// Who was to leave by itself is needed again, if it is still there.
+  virtual void rejoin(PeerNumber /*peer*/) {}
+
+  /// Who has asked here to be let in, at most Admission::asking_max of them, each once; what was decided is told by `refuse` or `expect`.
+  virtual std::vector<Newcomer> callers() { return {}; }
+  /// The newcomer of this token, who asked here, is not let in, or may ask again.
+  virtual void refuse(std::uint64_t /*token*/, const std::string& /*reason*/, bool /*may_ask_again*/) {}
+  /// A candidate will connect to all. If it asked here it is told now, with the members of `state` and the candidates before it, all of whom it must reach.
+  virtual void expect(const Candidate& /*candidate*/, bool /*has_asked_here*/, const State& /*state*/) {}
+  virtual bool reaches(PeerNumber /*candidate*/) { return false; }
+  /// Whether a candidate who asked here is gone, or has taken too long.
+  virtual bool has_given_up(PeerNumber /*candidate*/) { return false; }
+  /// It is no candidate any more, but one of those whose loss matters; or, if `is_in` is false, nobody. Then it may ask again.
+  virtual void admit(PeerNumber /*candidate*/, bool /*is_in*/) {}
 };
 
 /// There is no more mail from `peer`.
@@ -44,6 +61,11 @@ class PeerGone : public std::runtime_error {
 /// Those who are left must not go on: others may, or nobody can.
 class Halt : public std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// Of a newcomer that was not in for long: others may go on, and it may ask again.
+class SentAway : public Halt {
+  using Halt::Halt;
 };
 
 /// Another peer said what cannot be.

@@ -11,15 +11,31 @@ namespace rink::peer {
 
 Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail)
     : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
-      division_(cuts.division(settings_.peer_count)), mirrors_(settings_.peer_count), losses_(settings_.peer_count) {
+      division_(cuts.division(settings_.peer_count)) {
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
+  now_.slots = now_.next_number = settings_.peer_count;
+  now_.players = settings_.players;
+  for (const Player& player : now_.players) now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
   before_ = now_;
+  make_room(now_.slots);
   peer_.emplace(whole.spec(), division_, settings_.number, whole.body_count(), settings_.halo);
   for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer_->consider(body, physics::Portion::state_in(whole, body));
   for (const Key& key : settings_.keys) peer_->press_first(key);
-  for (const Seat& seat : settings_.seats) peer_->seat(seat);
+  for (const Player& player : now_.players)
+    for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
   if (settings_.is_mirrored) peer_->keep_changes(), keep_first_parts();
   peer_->begin(settings_.end_of(1));
+}
+
+void Session::make_room(PeerNumber slots) {
+  if (slots <= mirrors_.size()) return;
+  mirrors_.resize(slots);
+  losses_.resize(slots);
+}
+
+void Session::halt(const std::string& what) const {
+  if (is_newcomer_) throw SentAway(what);
+  throw Halt(what);
 }
 
 /// Everybody knows how it begins.
@@ -36,8 +52,8 @@ void Session::keep_first_parts() {
 /// The next one in the ring of those who have zones.
 std::optional<PeerNumber> Session::mirror_of(PeerNumber peer, const State& state) const {
   std::optional<PeerNumber> first;
-  for (const PeerNumber other : state.members) {
-    if (other == peer || !state.cuts.has(other)) continue;
+  for (const PeerNumber other : state.cuts.peers()) {
+    if (other == peer) continue;
     if (other > peer) return other;
     if (!first) first = other;
   }
@@ -79,7 +95,7 @@ void Session::advance() {
       if (!is_over()) play_window();
       return;
     } catch (const PeerGone& gone) {
-      note_gone(gone.peer(), gone.what());
+      note_gone(gone.peer(), gone.what(), gone.has_finished());
     }
 }
 
@@ -89,16 +105,17 @@ void Session::play_window() {
 }
 
 void Session::play_stretch() {
-  if (wishes_to_leave_) peer_->wish_to_leave();
+  peer_->wish_to_leave(wishes_to_leave_);
+  if (settings_.is_mirrored) announce();
   State next = now_;
   double next_end = 0.0;
   const auto when_final = [&] {
     next = after_stretch();
     next_end = stretch_end(next);
     if (next.zones == now_.zones) return;
-    division_ = next.cuts.division(settings_.peer_count);
+    division_ = next.division();
     peer_->divide(division_);
-    counters_.shifts += next.members.size() == now_.members.size();
+    counters_.shifts += next.slots == now_.slots && next.cuts.peers() == now_.cuts.peers();
   };
   // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way, unless there are goals to tell of.
   const auto agree_all = [&] { settings_.is_mirrored || settings_.goals ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
@@ -107,7 +124,7 @@ void Session::play_stretch() {
   if (settings_.is_mirrored) {
     PartChange change = peer_->change(false);
     for (const PeerNumber leaver : now_.members)
-      if (!is_member(leaver, next) && mirror_of(leaver, now_) == settings_.number) {
+      if (!next.has(leaver) && mirror_of(leaver, now_) == settings_.number) {
         const std::vector<Key> log = mirrors_[leaver].log();
         change.log.insert(change.log.end(), log.begin(), log.end());
       }
@@ -115,32 +132,35 @@ void Session::play_stretch() {
   } else {
     log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
   }
-  has_left_ = wishes_to_leave_ && (!is_member(settings_.number, next) || next.members.size() == 1);
+  has_left_ = !next.has(settings_.number) || (wishes_to_leave_ && next.members.size() == 1);
   adopt(std::move(next));
+  is_newcomer_ = false;
 }
 
-/// Who wished to leave hands its zones over, and who had none in this window is not waited for any more.
-Session::State Session::after_stretch() const {
+/// Who was let in gets a zone, who wished to leave hands its own over, and who had none in this stretch is not waited for any more.
+State Session::after_stretch() const {
   State next = now_;
   ++next.step;
   next.time = peer_->now();
   next.window += next.time == settings_.end_of(now_.window + 1);
   count_goals(next);
-  std::erase_if(next.members, [&](PeerNumber peer) { return !now_.cuts.has(peer); });
+  next.members = now_.next_voters();
+  give_zones(next);
   for (const PeerNumber peer : now_.members) {
-    const bool is_last = std::none_of(next.members.begin(), next.members.end(), [&](PeerNumber other) { return other != peer && next.cuts.has(other); });
-    if (is_member(peer, next) && peer_->verdict_of(peer).leaves && !is_last) next.cuts = next.cuts.without(peer), ++next.zones;
+    const std::vector<PeerNumber> zoned = next.cuts.peers();
+    if (next.has(peer) && peer_->verdict_of(peer).leaves && State::is_in(zoned, peer) && zoned.size() > 1) next.cuts = next.cuts.without(peer), ++next.zones;
   }
+  if (settings_.is_mirrored) admit(next);
   if (settings_.balance_windows > 0) balance(next);
   return next;
 }
 
-/// By what all have told all. What differs by chance alone, three standard deviations of a Poisson number, moves nothing.
+/// By what all have told all since zones changed last. What differs by chance alone, three standard deviations of a Poisson number, moves nothing.
 void Session::balance(State& next) const {
   constexpr double tolerance = 1.1, deviations = 3.0;
-  next.events.resize(settings_.peer_count, 0.0);
+  next.events.resize(now_.slots, 0.0);
   for (const PeerNumber peer : now_.members) next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
-  if (++next.counted_windows < settings_.balance_windows) return;
+  if (++next.counted_windows < settings_.balance_windows && next.zones == now_.zones) return;
   const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0), mean = all / static_cast<double>(next.members.size());
   if (next.zones == now_.zones && mean > 0.0) {
     auto shifted = next.cuts.balanced(next.events, tolerance + deviations / std::sqrt(mean));
@@ -154,9 +174,9 @@ void Session::balance(State& next) const {
 void Session::mirror(const State& next, PartChange change) {
   change.step = next.step;
   mirrors_[settings_.number].add(change);
-  const auto to = is_member(settings_.number, next) ? mirror_of(settings_.number, next) : std::nullopt;
+  const auto to = next.has(settings_.number) ? mirror_of(settings_.number, next) : std::nullopt;
   if (to) {
-    if (!change.is_whole && to != mirror_of(settings_.number, now_)) {
+    if (!change.is_whole && (to != mirror_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
       change = peer_->change(true);
       change.step = next.step;
       change.log = mirrors_[settings_.number].log();
@@ -166,7 +186,7 @@ void Session::mirror(const State& next, PartChange change) {
     mail_.send(*to, std::move(bytes));
   }
   for (const PeerNumber from : next.members) {
-    if (from == settings_.number || mirror_of(from, next) != settings_.number) continue;
+    if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
     auto kept = heard<PartChange>(from);
     const bool is_good = kept.step == next.step && std::all_of(kept.bodies.begin(), kept.bodies.end(), [&](const Arrivals::Body& body) { return body.number < whole_.body_count(); });
     if (!is_good || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
@@ -175,10 +195,12 @@ void Session::mirror(const State& next, PartChange change) {
 
 void Session::adopt(State next) {
   for (const PeerNumber peer : now_.members)
-    if (!is_member(peer, next) && peer != settings_.number) {
+    if (!next.has(peer) && peer != settings_.number) {
       mail_.part(peer, false);
       peer_->set_present(peer, false);
     }
+  make_room(next.slots);
+  if (settings_.is_mirrored && next.has(settings_.number)) greet(next);
   before_ = std::exchange(now_, std::move(next));
   std::erase_if(sent_, [&](const Sent& sent) { return sent.window + 2 <= now_.window; });
 }
@@ -195,13 +217,15 @@ SessionCounters Session::counters() const {
 }
 
 std::vector<Arrivals> Session::end() {
+  wishes_to_leave_ = false;
   for (;;) try {
       if (must_recover_) recover();
       while (!is_over()) play_window();
+      if (has_left_) return {};
       Arrivals own = own_bodies(*peer_);
       own.window = static_cast<std::uint32_t>(now_.window);
       own.keys = settings_.is_mirrored ? mirrors_[settings_.number].log() : log_;
-      std::vector<Arrivals> parts(settings_.peer_count);
+      std::vector<Arrivals> parts(now_.slots);
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(own));
       for (const PeerNumber from : now_.members)
@@ -216,7 +240,7 @@ std::vector<Arrivals> Session::end() {
       return parts_;
     } catch (const PeerGone& gone) {
       if (!parts_.empty() && gone.has_finished()) return parts_;
-      note_gone(gone.peer(), gone.what());
+      note_gone(gone.peer(), gone.what(), gone.has_finished());
     }
 }
 

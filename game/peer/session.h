@@ -1,4 +1,4 @@
-// One peer's part from the first window to the last, though others are lost or leave on the way.
+// One peer's part from its first window to the last, though others are lost, leave or join on the way.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "game/peer/cuts.h"
 #include "game/peer/protocol.h"
 #include "game/peer/scoring.h"
+#include "game/peer/session_state.h"
 
 namespace rink::peer {
 
@@ -19,28 +19,30 @@ namespace rink::peer {
 struct Loss {
   std::uint64_t word = 0x73736f4c6b6e6952ULL;  ///< tells it from all other messages: "RinkLoss"
   std::uint64_t step = 0;
-  std::vector<PeerNumber> gone;
+  std::vector<PeerNumber> gone{};
+  std::vector<PeerNumber> finished{};  ///< of these, who left in good order
 };
 
 template <class Stream>
 bool exchange(Stream& stream, Loss& loss) {
-  return stream.number(loss.word) && loss.word == Loss{}.word && stream.number(loss.step) && stream.size(loss.gone) &&
-         std::all_of(loss.gone.begin(), loss.gone.end(), [&](PeerNumber& peer) { return stream.number(peer); });
+  return stream.number(loss.word) && loss.word == Loss{}.word && stream.number(loss.step) && exchange_numbers(stream, loss.gone) && exchange_numbers(stream, loss.finished);
 }
 std::vector<std::uint8_t> written(Loss message);
 bool read(std::span<const std::uint8_t> bytes, Loss& message);
 
-/// The same for all peers but for `number`.
+/// The same for all peers but for `number`; of newcomers, `peer_count`, `players` and `halo` say nothing.
 struct SessionSettings {
-  PeerNumber number = 0, peer_count = 1;
+  PeerNumber number = 0, peer_count = 1;    ///< so many begin
   double halo = 1.0;                        ///< where it begins [m]
   bool is_mirrored = true;                  ///< whether each part is kept by another peer, too; otherwise a loss ends all
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
   std::uint32_t balance_windows = 0;        ///< after so many windows zones shift toward equal events per peer; 0: they stay
   std::vector<Key> keys{};                  ///< that all know from the start, of all bats
-  std::vector<Seat> seats{};
   std::optional<GoalRules> goals{};         ///< of a field that has some; windows must be shorter than the delay and the retry. The session is over with the window in which a side wins.
+  std::vector<Player> players{};            ///< of those who begin
+  std::uint32_t bat_count = 0;              ///< that can be played
+  std::function<std::vector<Seat>(const Player&)> seats_of{};
 };
 
 struct SessionCounters {
@@ -48,19 +50,23 @@ struct SessionCounters {
   std::uint64_t mirror_bytes = 0, recovery_bytes = 0;  ///< sent
   std::uint64_t recoveries = 0;                        ///< that came to an end
   std::uint64_t shifts = 0;                            ///< of zones, toward balance
+  std::uint64_t entry_bytes = 0;                       ///< sent to newcomers
 };
 
 /// Plays in steps: a step ends a window, or a recovery. Nobody is more than one step ahead of anybody else, since each step needs a message from everyone, so all can go back to
-/// the last step that all have. docs/peer-to-peer.md, "Loss of a peer".
+/// the last step that all have. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
 class Session {
  public:
   /// `whole` is at its start, and must outlive the session.
   Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail);
+  /// Of a newcomer, who is a candidate and has been told of these members: waits until it is one of them. Throws SentAway if it does not get that far, until its first window is over.
+  Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members);
 
   /// Plays a window, or recovers and plays one that was undone: then `window` may be what it was, or less. Throws Halt, ProtocolError, and what the mail throws.
   void advance();
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
+  std::uint64_t step() const { return now_.step; }
   bool is_over() const { return has_left_ || is_complete(); }
   /// After it: goals, and pucks that were still to come back.
   const Scoring& scoring() const { return now_.scoring; }
@@ -73,7 +79,8 @@ class Session {
   void press(const Glimpse& seen, const Press& press);
   Peer& peer() { return *peer_; }
   const Peer& peer() const { return *peer_; }
-  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer.
+  /// When all is over: everybody's bodies and, as keys, everybody's log, by peer. It is too late to leave then; but who had handed over its zone already may still do so on the way
+  /// (then: nothing).
   std::vector<Arrivals> end();
 
   SessionCounters counters() const;
@@ -85,17 +92,6 @@ class Session {
   const std::string& last_loss() const { return last_loss_; }
 
  private:
-  /// What all agree on at a step.
-  struct State {
-    std::uint64_t step = 0, window = 0;
-    double time = 0.0;                  // where it ends, which is within the next window while a puck comes back
-    Scoring scoring{};
-    std::vector<PeerNumber> members;  // those who leave among them
-    Cuts cuts;
-    std::uint64_t zones = 0;            // how often they changed
-    std::uint32_t counted_windows = 0;  // in which the events are counted, by peer
-    std::vector<double> events{};
-  };
   struct Sent {
     std::uint64_t window;  // with whose claims it went
     Press press;
@@ -115,8 +111,19 @@ class Session {
   void mirror(const State& next, PartChange change);
   std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
   void keep_first_parts();
+  void make_room(PeerNumber slots);
   void adopt(State next);
-  bool is_member(PeerNumber peer, const State& state) const { return std::binary_search(state.members.begin(), state.members.end(), peer); }
+  [[noreturn]] void halt(const std::string& what) const;
+
+  // session_joining.cpp
+  void announce();
+  void give_zones(State& next) const;
+  void admit(State& next) const;
+  std::optional<std::string> objection(const State& next, const Newcomer& newcomer) const;
+  void greet(const State& next);
+  void enter_late(std::vector<PeerNumber> members);
+  std::optional<Entry> first_entry(std::vector<PeerNumber> from);
+  void hear_same(const Entry& entry);
 
   // session_goals.cpp
   double stretch_end(const State& state) const;
@@ -126,18 +133,20 @@ class Session {
   std::uint64_t agree_on(FaceOffWord& word);
 
   // session_recovery.cpp
-  void note_gone(PeerNumber peer, const std::string& what);
+  void note_gone(PeerNumber peer, const std::string& what, bool has_finished = false);
   void recover();
-  std::uint64_t agree();
+  void agree();
   bool hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes);
-  void rewind(std::uint64_t step);
+  void go_back(PeerNumber as);
+  void send_away(const State& state);
+  bool has_majority(std::vector<PeerNumber> voters) const;
   void require_majority() const;
   std::vector<PeerNumber> stood_for() const;
   Arrivals share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
   void rebuild();
   void enter(const State& next, std::span<const Arrivals> shares);
   void press_again();
-  bool is_gone(PeerNumber peer) const { return std::binary_search(gone_.begin(), gone_.end(), peer); }
+  bool is_gone(PeerNumber peer) const { return State::is_in(gone_, peer); }
 
   SessionSettings settings_;
   Mail& mail_;
@@ -148,11 +157,13 @@ class Session {
   std::vector<Mirror> mirrors_;       // by peer: of those that are mirrored here, and the own part
   std::vector<Key> log_;              // of an own part that nobody mirrors
   std::vector<Sent> sent_;            // of the last windows
-  std::vector<PeerNumber> gone_;      // lost, sorted
+  std::vector<PeerNumber> gone_, finished_;  // lost, sorted; and of these, who left in good order
   std::vector<std::optional<Loss>> losses_;  // the last that each peer told
   std::string last_loss_;
   std::vector<Arrivals> parts_;       // everybody's, in the end
-  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false;
+  PeerNumber teller_ = 0;             // of a newcomer: whose entry it took
+  std::vector<Newcomer> asking_;      // here, of whom nothing was decided yet
+  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false;
   SessionCounters counters_;
 };
 

@@ -19,9 +19,10 @@ std::string listed(const std::vector<PeerNumber>& peers) {
 
 }  // namespace
 
-void Session::note_gone(PeerNumber peer, const std::string& what) {
+void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finished) {
   if (!settings_.is_mirrored) throw Halt(what);
   must_recover_ = true;
+  if (has_finished && !State::is_in(finished_, peer)) finished_.insert(std::upper_bound(finished_.begin(), finished_.end(), peer), peer);
   if (is_gone(peer)) return;
   last_loss_ = what;
   gone_.insert(std::upper_bound(gone_.begin(), gone_.end(), peer), peer);
@@ -32,73 +33,91 @@ void Session::note_gone(PeerNumber peer, const std::string& what) {
 bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
   Loss loss;
   if (!settings_.is_mirrored || !read(bytes, loss)) give_up(from, "peer " + std::to_string(from) + " sent what is no message");
-  if (std::binary_search(loss.gone.begin(), loss.gone.end(), settings_.number)) throw Halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
-  const std::vector<PeerNumber> told = loss.gone;
+  if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end()) halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
+  const std::vector<PeerNumber> told = loss.gone, finished = loss.finished;
   losses_[from] = std::move(loss);
   bool is_news = false;
   for (const PeerNumber peer : told) {
-    if (peer >= settings_.peer_count) give_up(from, "peer " + std::to_string(from) + " tells of the loss of peer " + std::to_string(peer) + ", who never was");
-    if (is_gone(peer)) continue;
-    is_news = true;
-    note_gone(peer, "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
+    if (peer >= numbers_max) give_up(from, "peer " + std::to_string(from) + " tells of the loss of peer " + std::to_string(peer) + ", who never was");
+    const bool is_new = !is_gone(peer);
+    is_news = is_news || is_new;
+    if (is_new) note_gone(peer, "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
+    if (std::find(finished.begin(), finished.end(), peer) != finished.end()) note_gone(peer, {}, true);
   }
   return is_news;
 }
 
 void Session::recover() {
-  rewind(agree());
+  agree();
+  for (Mirror& mirror : mirrors_)
+    if (!mirror.rewind(now_.step)) mirror = Mirror();
+  send_away(now_);
   require_majority();
   rebuild();
   must_recover_ = false;
   ++counters_.recoveries;
 }
 
-/// The last step that all have who are left, when they all miss the same ones.
-std::uint64_t Session::agree() {
-  for (;;) {
-    const std::vector<PeerNumber> gone = gone_;
-    std::uint64_t step = now_.step;
+/// All who are left miss the same ones, and are back at the last step that all of them have.
+void Session::agree() {
+  for (bool is_agreed = false; !is_agreed;) {
+    is_agreed = true;
     for (const PeerNumber to : now_.members)
-      if (to != settings_.number && !is_gone(to)) mail_.send(to, written(Loss{.step = now_.step, .gone = gone}));
-    bool is_agreed = true;
-    for (const PeerNumber from : now_.members) {
+      if (to != settings_.number && !is_gone(to)) mail_.send(to, written(Loss{.step = now_.step, .gone = gone_, .finished = finished_}));
+    const std::vector<PeerNumber> members = now_.members;
+    for (const PeerNumber from : members) {
       if (from == settings_.number || is_gone(from)) continue;
       while (is_agreed && !(losses_[from] && losses_[from]->gone == gone_)) {
         const std::vector<std::uint8_t> bytes = mail_.receive(from);
         Loss loss;
         if (read(bytes, loss)) is_agreed = !hears_loss(from, bytes);  // all else is of before
       }
+      if (is_agreed && losses_[from]->step < now_.step) go_back(from), is_agreed = false;
       if (!is_agreed) break;
-      step = std::min(step, losses_[from]->step);
     }
-    if (is_agreed) return step;
   }
 }
 
-void Session::rewind(std::uint64_t step) {
-  if (step != now_.step) {
-    if (step != before_.step) throw ProtocolError("somebody is at step " + std::to_string(step) + ", here it is " + std::to_string(now_.step));
-    now_ = before_;
-  }
-  for (Mirror& mirror : mirrors_)
-    if (!mirror.rewind(step)) mirror = Mirror();
+/// Who becomes a member with the step that is undone cannot be one, and who left with it still is.
+void Session::go_back(PeerNumber as) {
+  if (is_newcomer_) throw SentAway("peer " + std::to_string(as) + " had not heard of this one when others were lost");
+  if (before_.step + 1 != now_.step || losses_[as]->step != before_.step)
+    give_up(as, "peer " + std::to_string(as) + " is at step " + std::to_string(losses_[as]->step) + ", here it is " + std::to_string(now_.step));
+  send_away(now_);
+  for (const PeerNumber peer : now_.members)
+    if (!before_.has(peer)) mail_.admit(peer, false);
+  for (const PeerNumber peer : before_.members)
+    if (!now_.has(peer) && !is_gone(peer)) mail_.rejoin(peer);
+  now_ = before_;
 }
 
-/// More than half of those who played on; or half, with the first of them. Of two, either.
+/// All candidates: what they were to be let in with may be undone elsewhere.
+void Session::send_away(const State& state) {
+  for (const Candidate& candidate : state.candidates) mail_.admit(candidate.number, false);
+}
+
+/// More than half of them are left; or half, with the first of them. Of two, either.
+bool Session::has_majority(std::vector<PeerNumber> voters) const {
+  std::erase_if(voters, [&](PeerNumber peer) { return State::is_in(finished_, peer); });
+  const std::size_t count = voters.size();
+  const auto left = static_cast<std::size_t>(std::count_if(voters.begin(), voters.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
+  return left > 0 && (count == 2 || 2 * left > count || (2 * left == count && !is_gone(voters.front())));
+}
+
+/// Sides that are a step apart must have somebody in common, too.
 void Session::require_majority() const {
-  const std::size_t count = now_.members.size();
-  const auto left = static_cast<std::size_t>(std::count_if(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
-  if (count == 2 || 2 * left > count || (2 * left == count && !is_gone(now_.members.front()))) return;
-  throw Halt(last_loss_ + ". On this side " + std::to_string(left) + " of " + std::to_string(count) + " peers are left: it halts, for the others may go on");
+  if (has_majority(now_.voters()) && has_majority(now_.next_voters())) return;
+  const auto left = std::count_if(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !is_gone(peer); });
+  halt(last_loss_ + ". On this side " + std::to_string(left) + " of " + std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }
 
 /// This one, and those of the lost that it mirrors.
 std::vector<PeerNumber> Session::stood_for() const {
   std::vector<PeerNumber> parts{settings_.number};
   for (const PeerNumber peer : now_.members) {
-    if (!is_gone(peer)) continue;
+    if (!is_gone(peer) || now_.is_fresh(peer)) continue;
     const auto mirror = mirror_of(peer, now_);
-    if (!mirror || is_gone(*mirror)) throw Halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) + " had");
+    if (!mirror || is_gone(*mirror)) halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) + " had");
     if (mirror == settings_.number) parts.push_back(peer);
   }
   return parts;
@@ -127,11 +146,16 @@ void Session::rebuild() {
   const std::vector<PeerNumber> parts = stood_for();
   State next = now_;
   ++next.step;
-  std::erase_if(next.members, [&](PeerNumber peer) { return is_gone(peer); });
+  const auto is_lost = [&](PeerNumber peer) { return is_gone(peer); };
+  std::erase_if(next.members, is_lost);
+  std::erase_if(next.fresh, is_lost);
+  std::erase_if(next.admitted, [&](const Candidate& one) { return is_gone(one.number); });
+  next.candidates.clear();
+  next.gone = gone_;
   for (const PeerNumber peer : now_.members)
     if (is_gone(peer) && next.cuts.has(peer)) next.cuts = next.cuts.without(peer), ++next.zones;
-  division_ = next.cuts.division(settings_.peer_count);
-  std::vector<Arrivals> shares(settings_.peer_count);
+  division_ = next.division();
+  std::vector<Arrivals> shares(next.slots);
   for (const PeerNumber to : next.members) {
     if (to == settings_.number) continue;
     std::vector<std::uint8_t> bytes = written(share(parts, division_, to));
@@ -154,11 +178,12 @@ void Session::rebuild() {
 
 /// A new peer in the place of the old one, from the shares of all.
 void Session::enter(const State& next, std::span<const Arrivals> shares) {
-  counters_.peer += peer_->counters();
+  if (peer_) counters_.peer += peer_->counters();
   peer_.emplace(whole_.spec(), division_, settings_.number, whole_.body_count(), settings_.halo);
-  for (PeerNumber peer = 0; peer < settings_.peer_count; ++peer) peer_->set_present(peer, is_member(peer, next));
-  for (const Seat& seat : settings_.seats)
-    if (is_member(seat.peer, next)) peer_->seat(seat);
+  for (PeerNumber peer = 0; peer < next.slots; ++peer) peer_->set_present(peer, next.has(peer));
+  for (const Player& player : next.players)
+    if (next.has(player.peer))
+      for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
   const double time = next.time;
   peer_->enter(static_cast<std::uint32_t>(next.window), time);
   for (const Arrivals& share : shares) peer_->take(share);
@@ -184,7 +209,7 @@ void Session::press_again() {
   }
   for (Sent& sent : sent_) {
     const auto glimpse = std::find_if(seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
-    if (sent.window <= now_.window || glimpse == seen.end() || glimpse->owner >= settings_.peer_count) continue;
+    if (sent.window <= now_.window || glimpse == seen.end() || glimpse->owner >= now_.slots) continue;
     sent.window = now_.window + 1;
     peer_->press(glimpse->owner, sent.press);
   }

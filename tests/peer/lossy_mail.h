@@ -1,12 +1,15 @@
-// Mail between peers in threads that die in the middle of a word, or are cut off from each other.
+// Mail between peers in threads that die in the middle of a word, are cut off from each other, or come later.
 #pragma once
 
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <utility>
 #include <vector>
 
+#include "game/peer/session_state.h"
 #include "game/peer/protocol.h"
 
 namespace rink::peer::test {
@@ -14,86 +17,186 @@ namespace rink::peer::test {
 /// What ends a thread that is killed.
 struct Killed {};
 
+/// One thread's end of all lines; those who begin have their numbers as ends, whoever comes later has the next one that is free.
+using End = std::size_t;
+
+/// What a newcomer is told.
+struct Ticket {
+  enum class Answer : std::uint8_t { none, number, again, never } answer = Answer::none;
+  PeerNumber number = 0;
+  std::map<PeerNumber, End> others;  ///< whom it must reach
+  std::vector<PeerNumber> members;   ///< of these
+};
+
 class LossyOffice {
  public:
-  explicit LossyOffice(PeerNumber peer_count) : peer_count_(peer_count), lines_(peer_count * peer_count), is_dead_(peer_count), has_finished_(peer_count) {}
+  static constexpr End ends_max = 32;
+  explicit LossyOffice(PeerNumber peer_count)
+      : lines_(ends_max * ends_max), is_dead_(ends_max), has_finished_(ends_max), is_connected_(ends_max), tickets_(ends_max), callers_(ends_max), begin_count_(peer_count), end_count_(peer_count) {}
 
-  void kill(PeerNumber peer) {
+  void kill(End peer) {
     const std::lock_guard lock(mutex_);
     is_dead_[peer] = true;
     has_come_.notify_all();
   }
   /// No word goes any more between those for whom `is_one` is true and the others.
-  void cut_off(const std::function<bool(PeerNumber)>& is_one) {
+  void cut_off(const std::function<bool(End)>& is_one) {
     const std::lock_guard lock(mutex_);
-    for (PeerNumber a = 0; a < peer_count_; ++a)
-      for (PeerNumber b = 0; b < peer_count_; ++b)
+    for (End a = 0; a < ends_max; ++a)
+      for (End b = 0; b < ends_max; ++b)
         if (is_one(a) != is_one(b)) line(a, b).is_cut = true;
     has_come_.notify_all();
   }
-  void finish(PeerNumber peer) {
+  void finish(End peer) {
     const std::lock_guard lock(mutex_);
     has_finished_[peer] = true;
     has_come_.notify_all();
   }
-  void part(PeerNumber number, PeerNumber peer, bool is_lost) {
+  void part(End own, End peer, bool is_lost) {
     const std::lock_guard lock(mutex_);
-    line(peer, number).is_parted = true;
-    if (is_lost) line(number, peer).is_cut = true;
+    line(peer, own).is_parted = true;
+    if (is_lost) line(own, peer).is_cut = true;
     has_come_.notify_all();
   }
-  void send(PeerNumber from, PeerNumber to, std::vector<std::uint8_t> bytes) {
+  void rejoin(End own, End peer) {
+    const std::lock_guard lock(mutex_);
+    line(peer, own).is_parted = false;
+  }
+  void send(End from, End to, std::vector<std::uint8_t> bytes) {
     const std::lock_guard lock(mutex_);
     if (!line(from, to).is_cut) line(from, to).waiting.push_back(std::move(bytes));
     has_come_.notify_all();
   }
-  std::vector<std::uint8_t> receive(PeerNumber number, PeerNumber from) {
+  /// `counted`: those whose loss matters to `own`.
+  std::vector<std::uint8_t> receive(End own, PeerNumber from_number, End from, const std::map<PeerNumber, End>& counted) {
     std::unique_lock lock(mutex_);
     for (;;) {
-      Line& mail = line(from, number);
-      for (PeerNumber peer = 0; peer < peer_count_; ++peer)
-        if (peer != number && !line(peer, number).is_parted && (is_dead_[peer] || line(peer, number).is_cut)) throw PeerGone(peer, false, "peer " + std::to_string(peer) + " is gone");
+      Line& mail = line(from, own);
+      for (const auto& [number, end] : counted) {
+        if (line(end, own).is_sent_away) throw SentAway("peer " + std::to_string(number) + " sent this one away");
+        if (!line(end, own).is_parted && (is_dead_[end] || line(end, own).is_cut)) throw PeerGone(number, false, "peer " + std::to_string(number) + " is gone");
+      }
       if (!mail.waiting.empty()) {
         std::vector<std::uint8_t> bytes = std::move(mail.waiting.front());
         mail.waiting.pop_front();
         return bytes;
       }
-      if (has_finished_[from]) throw PeerGone(from, true, "peer " + std::to_string(from) + " has left");
+      if (has_finished_[from]) throw PeerGone(from_number, true, "peer " + std::to_string(from_number) + " has left");
       has_come_.wait(lock);
     }
+  }
+
+  /// A newcomer asks `to`, and waits for the answer; with it comes its end.
+  std::pair<End, Ticket> ask(End to, Newcomer newcomer) {
+    std::unique_lock lock(mutex_);
+    if (end_count_ == ends_max) return {0, {.answer = Ticket::Answer::never, .number = 0, .others = {}, .members = {}}};
+    const End own = end_count_++;
+    newcomer.token = own;
+    callers_[to].push_back(newcomer);
+    const auto is_over = [&] { return tickets_[own].answer != Ticket::Answer::none || is_dead_[to] || has_finished_[to] || line(to, own).is_cut; };
+    has_come_.wait(lock, is_over);
+    Ticket ticket = tickets_[own];
+    if (ticket.answer == Ticket::Answer::none) ticket.answer = Ticket::Answer::again;
+    is_connected_[own] = ticket.answer == Ticket::Answer::number;
+    if (!is_connected_[own]) is_dead_[own] = true;
+    return {own, ticket};
+  }
+  void answer(End own, Ticket ticket) {
+    const std::lock_guard lock(mutex_);
+    tickets_[own] = std::move(ticket);
+    has_come_.notify_all();
+  }
+  std::vector<Newcomer> callers(End own) {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(callers_[own], {});
+  }
+  bool reaches(End own, End peer) {
+    const std::lock_guard lock(mutex_);
+    return is_connected_[peer] && !is_dead_[peer] && !line(peer, own).is_cut;
+  }
+  bool has_given_up(End own, End peer) {
+    const std::lock_guard lock(mutex_);
+    return is_dead_[peer] || line(peer, own).is_cut;
+  }
+  void send_away(End own, End peer) {
+    const std::lock_guard lock(mutex_);
+    line(own, peer).is_sent_away = true;
+    if (tickets_[peer].answer == Ticket::Answer::none) tickets_[peer].answer = Ticket::Answer::again;
+    has_come_.notify_all();
+  }
+  bool is_there(End end) {
+    const std::lock_guard lock(mutex_);
+    return end < end_count_ && (end < begin_count_ || is_connected_[end]) && !is_dead_[end] && !has_finished_[end];
   }
 
  private:
   struct Line {
     std::deque<std::vector<std::uint8_t>> waiting;
-    bool is_cut = false, is_parted = false;
+    bool is_cut = false, is_parted = false, is_sent_away = false;
   };
-  Line& line(PeerNumber from, PeerNumber to) { return lines_[from * peer_count_ + to]; }
+  Line& line(End from, End to) { return lines_[from * ends_max + to]; }
 
-  PeerNumber peer_count_;
   std::vector<Line> lines_;
-  std::vector<bool> is_dead_, has_finished_;
+  std::vector<bool> is_dead_, has_finished_, is_connected_;
+  std::vector<Ticket> tickets_;
+  std::vector<std::vector<Newcomer>> callers_;
+  End begin_count_, end_count_;
   std::mutex mutex_;
   std::condition_variable has_come_;
 };
 
 class LossyMail final : public Mail {
  public:
-  /// With every word that is said or awaited, `before_word` is called with its number; it may throw.
-  LossyMail(LossyOffice& office, PeerNumber number, std::function<void(std::uint64_t)> before_word) : office_(office), number_(number), before_word_(std::move(before_word)) {}
+  /// With every word that is said or awaited, `before_word` is called with its number; it may throw. `others`: those who are there, of whom the `counted` are no candidates.
+  LossyMail(LossyOffice& office, End own, std::map<PeerNumber, End> others, std::map<PeerNumber, End> counted, std::function<void(std::uint64_t)> before_word)
+      : office_(office), own_(own), ends_(std::move(others)), counted_(std::move(counted)), before_word_(std::move(before_word)) {}
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
     before_word_(++words_);
-    office_.send(number_, to, std::move(bytes));
+    office_.send(own_, ends_.at(to), std::move(bytes));
   }
   std::vector<std::uint8_t> receive(PeerNumber from) override {
     before_word_(++words_);
-    return office_.receive(number_, from);
+    return office_.receive(own_, from, ends_.at(from), counted_);
   }
-  void part(PeerNumber peer, bool is_lost) override { office_.part(number_, peer, is_lost); }
+  void part(PeerNumber peer, bool is_lost) override {
+    if (ends_.contains(peer)) office_.part(own_, ends_.at(peer), is_lost);
+  }
+  void rejoin(PeerNumber peer) override { office_.rejoin(own_, ends_.at(peer)); }
+  std::vector<Newcomer> callers() override { return office_.callers(own_); }
+  void refuse(std::uint64_t token, const std::string&, bool may_ask_again) override {
+    office_.answer(token, {.answer = may_ask_again ? Ticket::Answer::again : Ticket::Answer::never, .number = 0, .others = {}, .members = {}});
+  }
+  void expect(const Candidate& candidate, bool has_asked_here, const State& state) override {
+    if (has_asked_here) {
+      Ticket ticket{.answer = Ticket::Answer::number, .number = candidate.number, .others = ends_, .members = state.members};
+      ticket.others[own_number(state)] = own_;
+      office_.answer(candidate.newcomer.token, std::move(ticket));
+    }
+    ends_[candidate.number] = candidate.newcomer.token;
+  }
+  bool reaches(PeerNumber candidate) override { return office_.reaches(own_, ends_.at(candidate)); }
+  bool has_given_up(PeerNumber candidate) override { return office_.has_given_up(own_, ends_.at(candidate)); }
+  void admit(PeerNumber candidate, bool is_in) override {
+    if (is_in) {
+      counted_[candidate] = ends_.at(candidate);
+      return;
+    }
+    counted_.erase(candidate);
+    office_.send_away(own_, ends_.at(candidate));
+    office_.part(own_, ends_.at(candidate), true);
+  }
 
  private:
+  /// The one of the members that is no other.
+  PeerNumber own_number(const State& state) const {
+    for (const PeerNumber peer : state.members)
+      if (!ends_.contains(peer)) return peer;
+    return 0;
+  }
+
   LossyOffice& office_;
-  PeerNumber number_;
+  End own_;
+  std::map<PeerNumber, End> ends_, counted_;
   std::function<void(std::uint64_t)> before_word_;
   std::uint64_t words_ = 0;
 };

@@ -78,7 +78,7 @@ TEST_F(PeerCommand, LetsNobodyPlayMoreBatsThanThereAre) {
   EXPECT_THAT(late.last_words(), HasSubstr("it wants to play 4 bats, of 8 here 3 are free"));
 }
 
-TEST_F(PeerCommand, RefusesOtherScenesAndOneTooManyByNameAndGoesOn) {
+TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   Process& first = found(2, "1");
   std::ofstream(folder_ / "other.toml") << small_scene << "[match]\nface_off_delay = 2.0\n";
   const Process& seeded = join(first, {"--seed", "9"});
@@ -92,13 +92,13 @@ TEST_F(PeerCommand, RefusesOtherScenesAndOneTooManyByNameAndGoesOn) {
   ASSERT_TRUE(ends(second) && ends(first));
   EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
 
-  Process& crowded = found(2, "1000");
+  Process& crowded = found(2, "1000", {"--unmirrored"});
   const Process& last = join(crowded);
   ASSERT_TRUE(are_playing({&crowded, &last}));
   const Process& third = join(last);
   ASSERT_TRUE(ends(third));
   EXPECT_EQ(third.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
-  EXPECT_THAT(third.last_words(), HasSubstr("all 2 peers are there already"));
+  EXPECT_THAT(third.last_words(), HasSubstr("they play already, and without mirrors (--unmirrored) nobody can join them"));
   EXPECT_FALSE(crowded.ending());
 }
 
@@ -111,6 +111,13 @@ TEST_F(PeerCommand, SaysWhatItCannotPlay) {
   ASSERT_TRUE(ends(alone));
   EXPECT_EQ(alone.ending()->exit_status, static_cast<int>(ExitStatus::no_server));
   EXPECT_THAT(alone.last_words(), HasSubstr("no peer answers at 127.0.0.1:1"));
+}
+
+TEST_F(PeerCommand, SaysByItsStatusThatAReportOrARecordCouldNotBeWritten) {
+  const std::string peer = test::binary_folder() + "/bin/rink-peer --scene " + scene() + " --peers 1 --until 0.1 --listen 127.0.0.1:0";
+  EXPECT_EQ(WEXITSTATUS(std::system((peer + " > /dev/full 2> /dev/null").c_str())), static_cast<int>(ExitStatus::failed));
+  EXPECT_NE(WEXITSTATUS(std::system((peer + " --record /dev/full > /dev/null 2> /dev/null").c_str())), 0);
+  EXPECT_EQ(WEXITSTATUS(std::system((peer + " > /dev/null 2> /dev/null").c_str())), 0);
 }
 
 /// Says `bytes` to a peer, and hears all until that closes the connection.

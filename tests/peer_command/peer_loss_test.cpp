@@ -6,11 +6,6 @@ namespace {
 
 class PeerLoss : public PeerCommand {
  protected:
-  std::string truth(double until) {
-    Game one(load_scene(scene()));
-    one.advance(until);
-    return printed(one.hash());
-  }
   bool says(const Process& peer, const std::string& words, std::chrono::seconds limit) {
     return until([&] { return peer.last_words().find(words) != std::string::npos; }, limit);
   }
@@ -96,6 +91,34 @@ TEST_F(PeerLoss, IsNotWhenOneIsInterruptedForItHandsOverWhatItOwns) {
   }
 }
 
+TEST_F(PeerLoss, IsNotWhenOneIsInterruptedInWindowsOfMoreThanASecond) {
+  Process& first = found(3, "9", {"--pace", "realtime", "--window", "1.5"});
+  Process& second = join(first);
+  Process& third = join(first);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  until([] { return false; }, 2s);
+  ASSERT_EQ(kill(second.id(), SIGINT), 0);
+  ASSERT_TRUE(ends(second, 8s));
+  EXPECT_THAT(second.last_words(), HasSubstr("all that this peer had is with others"));
+  for (const Process* peer : {&first, &third}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), truth(9.0));
+    EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
+  }
+}
+
+TEST_F(PeerLoss, HaltsWithoutLeavingAnEmptyRecord) {
+  const std::string file = (folder_ / "halted.keys").string();
+  Process& first = found(3, "1000", {"--pace", "realtime", "--record", file});
+  Process& second = join(first);
+  Process& third = join(first);
+  ASSERT_TRUE(are_playing({&first, &second, &third}));
+  for (const Process* peer : {&second, &third}) ASSERT_EQ(kill(peer->id(), SIGKILL), 0);
+  ASSERT_TRUE(ends(first));
+  EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(PeerCommand, UnmirroredNoticesWithinTwoSecondsThatAPeerWasKilledAndNamesIt) {
   Process& first = found(3, "10000", {"--unmirrored"});
   Process& second = join(first);
@@ -110,7 +133,7 @@ TEST_F(PeerCommand, UnmirroredNoticesWithinTwoSecondsThatAPeerWasKilledAndNamesI
   }
 }
 
-TEST_F(PeerCommand, UnmirroredAndInterruptedEndsAllInGoodOrder) {
+TEST_F(PeerCommand, UnmirroredAndInterruptedEndsAllButOnlyOneSaysThatItWasInterrupted) {
   Process& first = found(2, "10000", {"--unmirrored"});
   Process& second = join(first);
   ASSERT_TRUE(are_playing({&first, &second}));
@@ -118,7 +141,7 @@ TEST_F(PeerCommand, UnmirroredAndInterruptedEndsAllInGoodOrder) {
   ASSERT_TRUE(ends(first, 2s));
   ASSERT_TRUE(second.ending());
   EXPECT_EQ(second.ending()->exit_status, 130);
-  EXPECT_EQ(first.ending()->exit_status, 130);
+  EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
   EXPECT_THAT(first.last_words(), HasSubstr("was interrupted, so all end"));
 }
 

@@ -91,6 +91,12 @@ class PeerCommand : public testing::Test {
   bool are_playing(std::initializer_list<const Process*> peers) {
     return until([&] { return std::all_of(peers.begin(), peers.end(), [](const Process* peer) { return peer->line_after("playing").has_value(); }); });
   }
+  /// Of one engine.
+  std::string truth(double until) const {
+    Game one(load_scene(scene()));
+    one.advance(until);
+    return printed(one.hash());
+  }
   static std::string hash_of(const Process& peer) { return peer.line_after("  \"hash\": ").value_or(peer.last_words()); }
   /// As a report prints it.
   static std::string printed(std::uint64_t hash) {

@@ -18,7 +18,7 @@ InputEvent event_of(std::uint8_t input, double time, std::uint32_t player) {
   return {time, player, number % 2 == 1 ? InputKind::key_down : InputKind::key_up, static_cast<Key>(number / 2)};
 }
 
-Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double until) {
+Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until) {
   assert(count == 0 || !kinds.empty());
   for (std::uint32_t number = first; number < first + count; ++number) {
     const Bat& bat = scene.bodies.bats[number];
@@ -27,6 +27,7 @@ Crowd::Crowd(const Scene& scene, const Game& start, const std::vector<std::strin
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
     if (kind == "random") bot.plan = random_player_plan(seed, number, until);
     else bot.player = make_player(kind, rules_of(scene, number), seat, seed);
+    while (bot.next < bot.plan.size() && bot.plan[bot.next].time < from) ++bot.next;
     bots_.push_back(std::move(bot));
   }
 }

@@ -19,8 +19,8 @@ InputEvent event_of(std::uint8_t input, double time, std::uint32_t player);
 /// Players of the scene's bats from `first` on, `count` of them; bat k is played by kind k modulo their number, as by rink simulate.
 class Crowd {
  public:
-  /// `kinds`: "random" or one of player_kinds(), at least one unless `count` is 0 (asserted). `until`: how long random players are to press keys [s].
-  Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double until);
+  /// `kinds`: "random" or one of player_kinds(), at least one unless `count` is 0 (asserted). From when to `until` random players are to press keys [s].
+  Crowd(const Scene& scene, const Game& start, const std::vector<std::string>& kinds, std::uint64_t seed, std::uint32_t first, std::uint32_t count, double from, double until);
 
   /// How many pucks the one of these kinds wants to see who wants to see most.
   static std::uint32_t pucks_wanted(const Scene& scene, const std::vector<std::string>& kinds);

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "game/peer/session_state.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 4;
+inline constexpr std::uint32_t peer_protocol_version = 5;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
@@ -27,10 +28,11 @@ struct Place {
 };
 
 /// One of the peers, and which bats it plays: `bat_count` from `first_bat` on, each of which looks at `puck_count` pucks. The first `hand_count` of them are played by persons, who look
-/// at every window's end.
+/// at every window's end. `token` is a number that it chose, and nobody else has.
 struct Guest {
   Place place;
   std::uint32_t first_bat = 0, bat_count = 0, puck_count = 0, hand_count = 0;
+  std::uint64_t token = 0;
 };
 
 /// What every peer brings along, and must be equal at all.
@@ -46,7 +48,7 @@ struct Terms {
   double until = 0.0, window = 0.0;  ///< s
   std::uint32_t balance_windows = 0; ///< after so many windows zones shift toward equal load; 0: they stay
   bool is_mirrored = true;           ///< whether each peer's part is kept by another, too
-  bool fit() const { return peer_count >= 2 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
+  bool fit() const { return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
 };
 
 /// A newcomer's first words, to any peer. What follows `version` is of that version.
@@ -58,21 +60,28 @@ struct Hello {
   bool is_of_this_version() const { return version == peer_protocol_version; }
 };
 
-/// The first peer's answer: the newcomer is number `others.size()`, and these, in order of their numbers, are there already. It plays bats from
-/// `first_bat` on.
+/// Somebody to whom a newcomer connects. A member, or about to be one.
+struct Introduced {
+  std::uint32_t number = 0;
+  bool is_member = true;
+  Guest guest;
+};
+
+/// The answer of `sponsor`, before they play the first peer, then whoever was asked: the newcomer is `number`, and plays bats from `first_bat` on.
 struct Welcome {
   std::uint64_t session = 0;
   Terms terms;
-  std::uint32_t first_bat = 0;
-  std::vector<Guest> others;
+  std::uint32_t sponsor = 0, number = 0, first_bat = 0;
+  bool is_playing = false;
+  std::vector<Introduced> others;
 };
 
-/// The answer of any other peer: ask the first one, which is there.
+/// The answer of any other peer before they play: ask the first one, which is there.
 struct Elsewhere {
   Place first;
 };
 
-enum class RefusalKind : std::uint8_t { wrong_version, other };
+enum class RefusalKind : std::uint8_t { wrong_version, other, again };
 
 struct Refused {
   RefusalKind kind = RefusalKind::other;
@@ -109,7 +118,7 @@ bool exchange(Stream& stream, Place& place) {
 
 template <class Stream>
 bool exchange(Stream& stream, Guest& guest) {
-  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count, guest.hand_count) && guest.hand_count <= guest.bat_count;
+  return exchange(stream, guest.place) && stream.numbers(guest.first_bat, guest.bat_count, guest.puck_count, guest.hand_count, guest.token) && guest.hand_count <= guest.bat_count;
 }
 
 template <class Stream>
@@ -124,11 +133,19 @@ bool exchange(Stream& stream, Hello& hello) {
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
   Terms& terms = welcome.terms;
-  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.first_bat) && stream.truth(terms.is_mirrored);
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.sponsor, welcome.number, welcome.first_bat) &&
+                         stream.truth(terms.is_mirrored) && stream.truth(welcome.is_playing);
   if (!is_headed || !stream.size(welcome.others)) return false;
-  for (Guest& guest : welcome.others)
-    if (!exchange(stream, guest)) return false;
-  return terms.fit() && !welcome.others.empty() && welcome.others.size() < terms.peer_count;
+  bool has_sponsor = false;
+  std::uint32_t least = 0;
+  for (Introduced& one : welcome.others) {
+    if (!stream.number(one.number) || !stream.truth(one.is_member) || !exchange(stream, one.guest) || one.number < least || one.number >= peer::numbers_max) return false;
+    least = one.number + 1;
+    has_sponsor = has_sponsor || one.number == welcome.sponsor;
+    if (one.number == welcome.number) return false;
+  }
+  return terms.fit() && has_sponsor && welcome.number < peer::numbers_max &&
+         (welcome.is_playing ? terms.is_mirrored : welcome.sponsor == 0 && welcome.number == welcome.others.size() && welcome.number < terms.peer_count && least == welcome.number);
 }
 
 template <class Stream>
@@ -138,7 +155,7 @@ bool exchange(Stream& stream, Elsewhere& elsewhere) {
 
 template <class Stream>
 bool exchange(Stream& stream, Refused& refused) {
-  return stream.choice(refused.kind, RefusalKind::other) && exchange(stream, refused.reason);
+  return stream.choice(refused.kind, RefusalKind::again) && exchange(stream, refused.reason);
 }
 
 template <class Stream>

@@ -13,8 +13,8 @@ constexpr double stranger_patience_s = 5.0;
 /// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of that waits in our own.
 constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
 constexpr double wait_s_max = 0.05;
-/// Who is interrupted has so long to hand over what it owns.
-constexpr double leaving_s_max = 3.0;
+/// Who is interrupted has so long to hand over what it owns, and three windows.
+constexpr double leaving_s_max = 3.0, leaving_windows_max = 3.0;
 /// And waits so long for the others' goodbyes.
 constexpr double goodbye_s_max = 5.0;
 /// Who waits says that it is there, so often in the time that others have patience.
@@ -45,13 +45,37 @@ void Meeting::attend(double wait_s) {
   const bool is_sending = std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
   sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? 0.001 : wait_s))), *this);
   std::vector<rti::ConnectionId> idle;
-  for (const auto& [connection, link] : links_)
-    if (link.role == Role::stranger && now_s_() > link.since_s + stranger_patience_s) idle.push_back(connection);
+  for (const auto& [connection, link] : links_) {
+    const double patience_s = link.role == Role::stranger && link.early ? settings_.patience_s : stranger_patience_s;
+    if ((link.role == Role::stranger || link.role == Role::dismissed) && now_s_() > link.since_s + patience_s) idle.push_back(connection);
+  }
   for (const rti::ConnectionId connection : idle) dismiss(connection);
   const bool must_end = settings_.must_end();
   if (must_end && !interrupted_s_) interrupted_s_ = now_s_();
-  if (must_end && (!may_lose_ || now_s_() > *interrupted_s_ + leaving_s_max)) throw Parting(ExitStatus::interrupted, "interrupted");
+  if (must_end && !may_leave_in_order()) throw Parting(ExitStatus::interrupted, "interrupted");
   if (trouble_) throw Parting(*trouble_);
+}
+
+/// Not before the first window: until then there is nothing to hand over.
+bool Meeting::may_leave_in_order() const {
+  return may_lose_ && window_begin_s_ && now_s_() <= *interrupted_s_ + leaving_s_max + leaving_windows_max * std::max(terms_.window, longest_window_s_);
+}
+
+void Meeting::begin() {
+  is_playing_ = true;
+  may_lose_ = terms_.is_mirrored;
+}
+
+void Meeting::note_window() {
+  const double now = now_s_();
+  if (window_begin_s_) longest_window_s_ = std::max(longest_window_s_, now - *window_begin_s_);
+  window_begin_s_ = now;
+}
+
+void Meeting::abandon() {
+  for (auto& [connection, link] : links_)
+    if (!link.is_closed) sockets_.get().close(connection);
+  links_.clear();
 }
 
 void Meeting::push_all() {
@@ -125,11 +149,16 @@ void Meeting::read_frames(rti::ConnectionId connection) {
   for (auto entry = links_.find(connection); entry != links_.end() && !entry->second.is_closed && !entry->second.early; entry = links_.find(connection)) {
     Link& link = entry->second;
     const std::optional<Frame> frame = link.reader.next(link.role == Role::peer ? peer_frame_max : stranger_frame_max);
-    if (!frame && !link.reader.is_broken()) return;
+    if (!frame && (!link.reader.is_broken() || link.role == Role::dismissed)) return;
     const Role role = link.role;
-    const bool is_good = frame && (role == Role::stranger ? hear_stranger(connection, *frame) : role == Role::asked ? hear_answer(connection, *frame) : hear_peer(link, *frame));
+    if (role == Role::dismissed) continue;
+    const auto hears = [&] {
+      if (role == Role::stranger) return hear_stranger(connection, *frame);
+      return role == Role::asked ? hear_answer(connection, *frame) : role == Role::peer && hear_peer(connection, link, *frame);
+    };
+    const bool is_good = frame && hears();
     if (is_good) continue;
-    if (role == Role::stranger) return dismiss(connection);
+    if (role == Role::stranger || role == Role::caller) return dismiss(connection);
     if (role == Role::peer) lose(link, ExitStatus::failed, name_of(link) + " sent what is no message");
     else note(ExitStatus::no_server, "what answers at " + link.guest.place.text() + " is no peer of this version");
     link.is_closed = true;
@@ -145,11 +174,17 @@ void Meeting::on_close(rti::ConnectionId connection, rti::CloseReason reason, co
   link.is_closed = true;
   link.outbox.clear();
   if (link.role == Role::peer && !link.is_done && !link.is_parted) lose(link, ExitStatus::connection_lost, name_of(link) + (link.is_open ? " is gone: " : " cannot be reached: ") + why);
-  if (link.role == Role::asked) note(ExitStatus::no_server, "no peer answers at " + link.guest.place.text() + ": " + why);
-  if (link.role != Role::peer) links_.erase(entry);
+  if (link.role == Role::asked) unanswered_ = "no peer answers at " + link.guest.place.text() + ": " + why;
+  // Of whom a greeting is kept, that it is gone is news when it is expected.
+  if (link.role != Role::peer && !link.early) links_.erase(entry);
 }
 
-bool Meeting::hear_peer(Link& link, const Frame& frame) {
+bool Meeting::hear_peer(rti::ConnectionId connection, Link& link, const Frame& frame) {
+  if (frame.kind == FrameKind::refusal && !members_.empty()) {
+    const auto refused = message_from<Refused>(frame.content);
+    if (refused && sent_away_.empty()) sent_away_ = name_of(link) + ": " + refused->reason;
+    return refused.has_value();
+  }
   if (frame.kind == FrameKind::mail) {
     link.inbox.push_back(frame.content);
     return !link.is_done;
@@ -158,42 +193,65 @@ bool Meeting::hear_peer(Link& link, const Frame& frame) {
   const auto farewell = frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
   if (!farewell) return false;
   link.is_done = true;
-  if (farewell->kind == FarewellKind::interrupted) lose(link, ExitStatus::interrupted, name_of(link) + " was interrupted" + (may_lose_ ? "" : ", so all end"));
+  // Who leaves with our consent waits for this word.
+  if (link.is_parted && !link.is_closed) say(connection, FrameKind::farewell, bytes_of(Farewell{}));
+  if (farewell->kind == FarewellKind::interrupted) lose(link, ExitStatus::connection_lost, name_of(link) + " was interrupted" + (may_lose_ ? "" : ", so all end"));
   if (farewell->kind == FarewellKind::trouble) lose(link, ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
   return true;
 }
 
-void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) { say(*peers_[to], FrameKind::mail, bytes); }
+/// Who is expected and has not connected yet gets it then.
+void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
+  if (to < peers_.size() && peers_[to]) return say(*peers_[to], FrameKind::mail, bytes);
+  if (expected_.contains(to)) waiting_mail_[to].push_back(std::move(bytes));
+}
 
 std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {
-  Link& link = link_of(from);
   double begin_s = now_s_(), looked_s = begin_s;
   for (;;) {
     // Who was stopped itself may not call that the others' silence: what they said meanwhile has not been read yet.
     const double now = now_s_();
     if (now - looked_s > std::max(0.5 * settings_.patience_s, 2.0 * wait_s_max)) begin_s = now;
     looked_s = now;
+    if (!sent_away_.empty()) throw peer::SentAway(sent_away_);
     for (const auto& [connection, other] : links_)
-      if (!other.loss.empty() && !other.is_parted) throw peer::PeerGone(other.number, false, other.loss);
-    if (!link.inbox.empty()) break;
-    if (link.is_done && may_lose_) throw peer::PeerGone(from, true, name_of(link) + " has left");
-    if (link.is_done) throw Parting(ExitStatus::connection_lost, name_of(link) + " left before the end");
-    if (now > std::max(begin_s, link.heard_s) + settings_.patience_s)
-      lose(link, ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s");
-    if (link.loss.empty()) attend(wait_s_max);
+      if (other.role == Role::peer && other.is_counted && !other.loss.empty() && !other.is_parted) throw peer::PeerGone(other.number, false, other.loss);
+    Link* const link = link_at(from);
+    if (link && !link->inbox.empty()) {
+      std::vector<std::uint8_t> first = std::move(link->inbox.front());
+      link->inbox.pop_front();
+      return first;
+    }
+    if (link && link->is_done && may_lose_) throw peer::PeerGone(from, true, name_of(*link) + " has left");
+    if (link && link->is_done) throw Parting(ExitStatus::connection_lost, name_of(*link) + " left before the end");
+    const std::string silence = " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s";
+    if (!link && now > begin_s + settings_.patience_s) throw peer::PeerGone(from, false, "peer " + std::to_string(from) + silence);
+    if (link && now > std::max(begin_s, link->heard_s) + settings_.patience_s) {
+      link->is_counted = true;
+      lose(*link, ExitStatus::connection_lost, name_of(*link) + silence);
+    }
+    if (!link || link->loss.empty() || !link->is_counted || link->is_parted) attend(wait_s_max);
   }
-  std::vector<std::uint8_t> first = std::move(link.inbox.front());
-  link.inbox.pop_front();
-  return first;
 }
 
 void Meeting::part(peer::PeerNumber peer, bool is_lost) {
-  Link& link = link_of(peer);
-  link.is_parted = true;
-  if (link.is_closed) return;
-  if (!is_lost) return say(*peers_[peer], FrameKind::farewell, bytes_of(Farewell{}));
-  link.is_closed = true;
+  Link* const link = link_at(peer);
+  if (!link) return;
+  link->is_parted = true;
+  if (link->is_closed) return;
+  if (!is_lost) {
+    if (link->is_done) say(*peers_[peer], FrameKind::farewell, bytes_of(Farewell{}));
+    return;
+  }
+  link->is_closed = true;
   sockets_.get().close(*peers_[peer]);
+}
+
+void Meeting::rejoin(peer::PeerNumber peer) {
+  Link* const link = link_at(peer);
+  if (!link) return;
+  link->is_parted = false;
+  if (link->is_closed && !link->is_done) lose(*link, ExitStatus::connection_lost, name_of(*link) + " is gone");
 }
 
 void Meeting::rest_until(double time_s) {

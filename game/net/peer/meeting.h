@@ -39,19 +39,25 @@ struct MeetingSettings {
 };
 
 /// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. From `begin` on, where parts are mirrored,
-/// it is peer::PeerGone instead of the first three, and of a user's interrupt only what takes too long. A stranger who says what a peer would not loses the connection, and
-/// nothing else happens.
+/// it is peer::PeerGone instead of the first three (peer::SentAway of a newcomer who may ask again), and of a user's interrupt only what takes too long. A stranger who says what a peer
+/// would not loses the connection, and nothing else happens.
 class Meeting final : public peer::Mail, private rti::TransportListener {
  public:
   Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)());
 
-  /// Become the first peer, number 0; or ask the peer at `any` and hear who is there.
+  /// Become the first peer, number 0; or ask the peer at `any`, again and again for some seconds if nobody answers there, and hear who is there.
   void found(const Terms& terms);
   void join(const Place& any);
-  /// Until all are connected.
+  /// Of a newcomer while others play: whom it was told of; otherwise nobody.
+  const std::vector<peer::PeerNumber>& members() const { return members_; }
+  /// Until all are connected who begin.
   void gather();
-  /// The play begins: from here on peers may be lost.
-  void begin() { may_lose_ = terms_.is_mirrored; }
+  /// The play begins: from here on peers may be lost, and others come.
+  void begin();
+  /// Before each window: so it is known how long one takes, and how long it takes to leave.
+  void note_window();
+  /// Closes all connections without a word.
+  void abandon();
   /// Does nothing but listen until `time_s` of the clock, or a user's interrupt.
   void rest_until(double time_s);
   /// Says goodbye to all, and sees that all that was sent is on its way.
@@ -68,12 +74,22 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
   void part(peer::PeerNumber peer, bool is_lost) override;
+  void rejoin(peer::PeerNumber peer) override;
+  std::vector<peer::Newcomer> callers() override;
+  void refuse(std::uint64_t token, const std::string& reason, bool may_ask_again) override;
+  void expect(const peer::Candidate& candidate, bool has_asked_here, const peer::State& state) override;
+  bool reaches(peer::PeerNumber candidate) override;
+  bool has_given_up(peer::PeerNumber candidate) override;
+  void admit(peer::PeerNumber candidate, bool is_in) override;
 
  private:
-  enum class Role : std::uint8_t { stranger, asked, peer };
+  /// A caller has asked to be let in while we play. Who is dismissed is heard no more, and closes the connection itself or has it closed.
+  enum class Role : std::uint8_t { stranger, asked, caller, peer, dismissed };
   struct Link {
     Role role = Role::stranger;
     bool is_open = false, is_closed = false, is_done = false;
+    bool is_counted = true;         ///< of a peer: its loss matters, as that of a candidate does not
+    bool is_told_of = false;        ///< of a caller: by `callers`
     peer::PeerNumber number = 0;
     Guest guest;
     bool is_parted = false;
@@ -101,7 +117,8 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void refuse(rti::ConnectionId connection, RefusalKind kind, const std::string& reason);
   bool hear_stranger(rti::ConnectionId connection, const Frame& frame);
   bool hear_answer(rti::ConnectionId connection, const Frame& frame);
-  bool hear_peer(Link& link, const Frame& frame);
+  bool hear_peer(rti::ConnectionId connection, Link& link, const Frame& frame);
+  void answer_in_play(rti::ConnectionId connection, const Hello& hello);
   void answer(rti::ConnectionId connection, const Hello& hello);
   void admit(rti::ConnectionId connection, const Greeting& greeting);
   void enter(rti::ConnectionId connection, const Welcome& welcome);
@@ -110,6 +127,8 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void lose(Link& link, ExitStatus status, const std::string& what);
   void show_signs();
   bool are_all_here() const;
+  bool may_leave_in_order() const;
+  Link* link_at(peer::PeerNumber number);
   Link& link_of(peer::PeerNumber number) { return links_.at(*peers_[number]); }
   static std::string name_of(const Link& link) { return "peer " + std::to_string(link.number) + " (" + link.guest.place.text() + ")"; }
 
@@ -118,9 +137,15 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   double (*now_s_)();
   Terms terms_;
   peer::PeerNumber number_ = 0;
-  bool is_in_ = false, may_lose_ = false;
-  std::optional<double> interrupted_s_;
+  bool is_in_ = false, may_lose_ = false, is_playing_ = false;
+  std::optional<double> interrupted_s_, window_begin_s_;
+  double longest_window_s_ = 0.0;
+  std::vector<peer::PeerNumber> members_;
+  std::string unanswered_, sent_away_;                   ///< why we are to ask again; why we, newcomers, are not in after all
+  std::map<peer::PeerNumber, Guest> expected_;           ///< candidates and newcomers, who will connect to us
+  std::map<peer::PeerNumber, std::vector<std::vector<std::uint8_t>>> waiting_mail_;  ///< for such
   int redirections_ = 0;
+  bool may_ask_again_ = false;
   std::map<rti::ConnectionId, Link> links_;
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
   std::vector<Guest> guests_;                            ///< by number: whom the first peer has let in, or who has said that it was

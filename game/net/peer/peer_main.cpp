@@ -8,7 +8,9 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -75,7 +77,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
   const peer::PeerCounters& counters = part.counters.peer;
   Json report{{"peer", meeting.number()},
-          {"peers", meeting.terms().peer_count},
+          {"peers", part.members},
           {"time", part.time},
           {"windows", counters.windows},
           {"repeats", counters.repeats},
@@ -101,7 +103,8 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"recoveries", part.counters.recoveries},
           {"shifts", part.counters.shifts},
           {"mirror_bytes", part.counters.mirror_bytes},
-          {"recovery_bytes", part.counters.recovery_bytes}};
+          {"recovery_bytes", part.counters.recovery_bytes},
+          {"entry_bytes", part.counters.entry_bytes}};
   if (!part.has_left) report["hash"] = hash;
   return report;
 }
@@ -111,37 +114,91 @@ void write_record(const Options& options, const game::SharedGame& shared, const 
   game::write_key_log(std::filesystem::path(options.record), shared.record_of(part, game::scene_text(options.scene)));
 }
 
-/// From the first word to the last; whoever is connected is told why it ends early.
+/// The file for a record, which is tried out before the run; if the run leaves no record, nor does it leave the empty file of that trial.
+class RecordFile {
+ public:
+  explicit RecordFile(const std::string& path) : path_(path), is_new_(!path.empty() && !std::filesystem::exists(path)) { game::require_writable("--record", path); }
+  ~RecordFile() {
+    std::error_code error;
+    if (is_new_ && std::filesystem::is_regular_file(path_, error) && std::filesystem::file_size(path_, error) == 0) std::filesystem::remove(path_, error);
+  }
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
+
+ private:
+  std::string path_;
+  bool is_new_;
+};
+
+/// Until all who begin are there, or those who play already have told us of each other.
+void meet(const Options& options, game::Meeting& meeting) {
+  if (options.join.empty()) {
+    meeting.found(options.terms);
+  } else {
+    const auto [address, port] = game::address_and_port("--join", options.join);
+    meeting.join({address, port});
+    if (meeting.members().empty()) std::printf("peer %u of %u\n", meeting.number(), meeting.terms().peer_count);
+    else std::printf("peer %u, beside %zu who play\n", meeting.number(), meeting.members().size());
+    std::fflush(stdout);
+  }
+  if (meeting.members().empty()) meeting.gather();
+  std::printf("playing\n");
+  std::fflush(stdout);
+  meeting.begin();
+}
+
+/// When the clock shows that simulated time, from the first time that is asked for on.
+class Pace {
+ public:
+  double clock_s(double time) {
+    if (!offset_s_) offset_s_ = now_s() - time;
+    return *offset_s_ + time;
+  }
+
+ private:
+  std::optional<double> offset_s_;
+};
+
+game::PlayedPart play(const Options& options, const game::SharedGame& shared, game::Meeting& meeting) {
+  Pace pace;
+  game::Manner manner{.players = options.players,
+                      .before_window = {},
+                      .wants_to_leave = [] { return game::is_interrupted != 0; },
+                      .tell = [](const std::string& what) { spdlog::warn("{}", what); },
+                      .members = meeting.members()};
+  manner.before_window = [&](double time) {
+    meeting.note_window();
+    if (options.pace == "realtime") meeting.rest_until(pace.clock_s(time));
+  };
+  return shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
+}
+
+/// What a run leaves, of which what cannot be had again comes first should a file refuse.
+game::ExitStatus report(const Options& options, const game::SharedGame& shared, const game::Meeting& meeting, const game::PlayedPart& part, double playing_s) {
+  std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
+  const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!is_told) spdlog::error("the report could not be written to the standard output");
+  if (!part.has_left) write_record(options, shared, part);
+  return part.has_left ? game::ExitStatus::interrupted : is_told ? game::ExitStatus::ok : game::ExitStatus::failed;
+}
+
+/// From the first word to the last; whoever is connected is told why it ends early. Throws peer::SentAway of a newcomer that may ask again.
 game::ExitStatus share(const Options& options, const game::SharedGame& shared, game::Meeting& meeting) {
   try {
-    if (options.join.empty()) {
-      meeting.found(options.terms);
-    } else {
-      const auto [address, port] = game::address_and_port("--join", options.join);
-      meeting.join({address, port});
-      std::printf("peer %u of %u\n", meeting.number(), meeting.terms().peer_count);
-      std::fflush(stdout);
-    }
-    meeting.gather();
-    std::printf("playing\n");
-    std::fflush(stdout);
+    meet(options, meeting);
     const double start_s = now_s();
-    meeting.begin();
-    game::Manner manner{.players = options.players, .before_window = {}, .wants_to_leave = [] { return game::is_interrupted != 0; }, .tell = [](const std::string& what) { spdlog::warn("{}", what); }};
-    if (options.pace == "realtime") manner.before_window = [&](double time) { meeting.rest_until(start_s + time); };
-    const game::PlayedPart part = shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
+    const game::PlayedPart part = play(options, shared, meeting);
     const double playing_s = now_s() - start_s;
     meeting.leave({});
     if (part.has_left) spdlog::warn("interrupted at {} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
-    // First what cannot be had again, should the file refuse.
-    std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
-    if (std::fflush(stdout) != 0) spdlog::error("the report could not be written to the standard output");
-    if (!part.has_left) write_record(options, shared, part);
-    return part.has_left ? game::ExitStatus::interrupted : game::ExitStatus::ok;
+    return report(options, shared, meeting, part, playing_s);
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
     meeting.leave({parting.status() == game::ExitStatus::interrupted ? game::FarewellKind::interrupted : game::FarewellKind::trouble, parting.what()});
     return parting.status();
+  } catch (const peer::SentAway&) {
+    meeting.abandon();
+    throw;
   } catch (const peer::Halt& halt) {
     spdlog::error("{}", halt.what());
     meeting.leave({game::FarewellKind::trouble, halt.what()});
@@ -208,7 +265,7 @@ game::ExitStatus share_among_ranks(Options options) {
 }
 
 game::ExitStatus run(const Options& options) {
-  game::require_writable("--record", options.record);
+  const RecordFile record(options.record);
   if (options.transport == "mpi") return share_among_ranks(options);
   const game::SharedGame shared = game_of(options);
   if (options.join.empty()) shared.require_window(options.terms.window);
@@ -220,12 +277,23 @@ game::ExitStatus run(const Options& options) {
   place.port = sockets.listen(place.address, place.port);
   std::printf("listening on %s\n", place.text().c_str());
   std::fflush(stdout);
-  std::random_device device;
-  const std::uint64_t upper = device();
-  const std::uint64_t session = upper << 32 | device();
-  const game::Guest self{.place = place, .bat_count = options.bots, .puck_count = game::Crowd::pucks_wanted(shared.scene(), options.players)};
-  game::Meeting meeting(sockets, {.self = self, .bats = shared.bat_count(), .luggage = shared.luggage(), .session = session, .patience_s = options.patience_s}, now_s);
-  return share(options, shared, meeting);
+  const auto number_that_nobody_guesses = [] {
+    std::random_device device;
+    const std::uint64_t upper = device();
+    return upper << 32 | device();
+  };
+  for (int tries = 1;; ++tries) {
+    const game::Guest self{.place = place, .bat_count = options.bots, .puck_count = game::Crowd::pucks_wanted(shared.scene(), options.players), .token = number_that_nobody_guesses()};
+    game::Meeting meeting(sockets, {.self = self, .bats = shared.bat_count(), .luggage = shared.luggage(), .session = number_that_nobody_guesses(), .patience_s = options.patience_s}, now_s);
+    try {
+      return share(options, shared, meeting);
+    } catch (const peer::SentAway& sent) {
+      constexpr int tries_max = 10;
+      spdlog::warn("{}; {}", sent.what(), tries < tries_max ? "asking again" : "that was the last try");
+      if (tries == tries_max) return game::ExitStatus::not_admitted;
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+  }
 }
 
 game::ExitStatus run_or_explain(const Options& options) {
@@ -243,8 +311,8 @@ game::ExitStatus run_or_explain(const Options& options) {
 
 void add_options(CLI::App& app, Options& options) {
   app.description("One of the peers that share a simulation without a server: each owns and simulates the bodies in its part of the field, and all together have, bit for bit, what\n"
-                  "one engine has. The first one says how many and how long; all others join through any that is there. When all are there they play, each prints what it did\n"
-                  "and the hash of the whole, which is that of rink simulate.");
+                  "one engine has. The first one says how many begin and how long they play; all others join through any that is there, before the start or while they play. In the\n"
+                  "end each prints what it did and the hash of the whole, which is that of rink simulate.");
   app.name("rink peer");
   app.add_option("--scene", options.scene, "a scene file or the name of a preset; the same for all")->required();
   app.add_option("--keys", options.keys, "a recorded key log to play, the same for all (default: the scene's scripted keys only)");
@@ -259,14 +327,14 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
   app.add_option("--listen", options.listen, "where others reach this peer; port 0 takes any free one (default of those who join a peer of this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT");
   CLI::Option* join = app.add_option("--join", options.join, "any peer that is there already; without this, become the first one")->type_name("HOST:PORT");
-  app.add_option("--peers", options.terms.peer_count, "how many there will be; the first peer's to say")->check(CLI::Range(2u, game::peers_max))->excludes(join)->capture_default_str();
+  app.add_option("--peers", options.terms.peer_count, "how many are waited for before the start, while more may come later; the first peer's to say")->check(CLI::Range(1u, game::peers_max))->excludes(join)->capture_default_str();
   app.add_option("--until", options.terms.until, "simulated time at which to stop [s]; the first peer's to say")->check(game::number_from(1e-6, game::seconds_max))->excludes(join)->capture_default_str();
   app.add_option("--window", options.terms.window, "simulated time from one agreement to the next [s]; the first peer's to say")->check(game::number_from(1e-4, 10.0))->excludes(join)->capture_default_str();
   app.add_option("--balance", options.terms.balance_windows, "after so many windows zones shift toward equal numbers of events, if these are uneven; 0: they stay; the first peer's to say")
       ->check(CLI::Range(0u, 1'000'000u))
       ->excludes(join)
       ->capture_default_str();
-  app.add_flag("!--unmirrored", options.terms.is_mirrored, "no peer keeps another's part: who is lost or interrupted ends all; the first peer's to say")->excludes(join);
+  app.add_flag("!--unmirrored", options.terms.is_mirrored, "no peer keeps another's part: who is lost or interrupted ends all, and nobody joins later; the first peer's to say")->excludes(join);
   app.add_option("--transport", options.transport, "what carries the bytes: tcp; shm between processes of this machine, where a port is a name; or mpi between the ranks of an mpirun, which all are peers; the same for all")->check(CLI::IsMember({"tcp", "shm", "mpi"}))->capture_default_str();
   app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();
   app.footer("Example, in two terminals:\n  ./rink peer --scene arena --peers 2 --until 5 --listen 127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"

@@ -36,13 +36,19 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
   Place place = listening_place(settings.listen, settings.join, true, {.listen = "--peer-listen", .join = "--peer"});
   place.port = sockets_.listen(place.address, place.port);
   hand_.say("listening on " + place.text() + "\n");
-  const Guest self{.place = place, .bat_count = 1, .hand_count = 1};
+  place_ = place;
+  meet();
+  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty() ? "this peer listens on " + place.text() + "; there will be " + std::to_string(settings.terms.peer_count) : "asking the peer at " + settings.join);
+  thread_ = std::thread([this] { run(); });
+}
+
+/// Among others anew: with another token.
+void PlayingPeer::meet() {
+  const Guest self{.place = place_, .bat_count = 1, .hand_count = 1, .token = unguessable_number()};
   const auto must_end = [this] { return is_interrupted != 0 || hand_.wants_to_leave(); };
   meeting_ = std::make_unique<Meeting>(
       sockets_,
-      MeetingSettings{.self = self, .bats = game_.bat_count(), .luggage = game_.luggage(), .session = unguessable_number(), .patience_s = settings.patience_s, .must_end = must_end}, now_s);
-  hand_.set_stage(PeerStage::Step::gathering, settings.join.empty() ? "this peer listens on " + place.text() + "; there will be " + std::to_string(settings.terms.peer_count) : "asking the peer at " + settings.join);
-  thread_ = std::thread([this] { run(); });
+      MeetingSettings{.self = self, .bats = game_.bat_count(), .luggage = game_.luggage(), .session = unguessable_number(), .patience_s = settings_.patience_s, .must_end = must_end}, now_s_);
 }
 
 PlayingPeer::~PlayingPeer() {
@@ -56,11 +62,26 @@ void PlayingPeer::run() {
     hand_.set_stage(PeerStage::Step::lost, why);
   };
   try {
-    share();
+    for (int tries = 1; !share_or_come_again(tries); ++tries) {
+    }
   } catch (const Parting& parting) {
     end_badly(parting.status() == ExitStatus::interrupted ? FarewellKind::interrupted : FarewellKind::trouble, parting.what());
   } catch (const std::exception& error) {  // peer::Halt, peer::ProtocolError, a transport's
     end_badly(FarewellKind::trouble, error.what());
+  }
+}
+
+/// False if it was sent away before it was in, and may try again.
+bool PlayingPeer::share_or_come_again(int tries) {
+  constexpr int tries_max = 10;
+  try {
+    share();
+    return true;
+  } catch (const peer::SentAway&) {
+    if (tries == tries_max) throw;
+    meeting_->abandon();
+    meet();
+    return false;
   }
 }
 
@@ -72,19 +93,25 @@ void PlayingPeer::share() {
     meeting_->join({address, port});
     hand_.set_stage(PeerStage::Step::gathering, "peer " + std::to_string(meeting_->number()) + " of " + std::to_string(meeting_->terms().peer_count));
   }
-  meeting_->gather();
+  const bool is_late = !meeting_->members().empty();
+  if (!is_late) meeting_->gather();
   const Terms& terms = meeting_->terms();
   const Guest& self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
-  hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
+  if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
   meeting_->begin();
-  const double start_s = now_s_() + settings_.countdown_s;
-  meeting_->rest_until(start_s);
+  if (!is_late) meeting_->rest_until(now_s_() + settings_.countdown_s);
   hand_.set_stage(PeerStage::Step::playing, "");
   HandPlayer player(game_, self.first_bat, hand_);
   player.bytes_sent = [this] { return meeting_->bytes_sent(); };
   Manner manner;
-  manner.before_window = [&](double time) { meeting_->rest_until(start_s + time); };
+  std::optional<double> start_s;  // of the simulated time
+  manner.before_window = [&](double time) {
+    if (!start_s) start_s = now_s_() - time;
+    meeting_->note_window();
+    meeting_->rest_until(*start_s + time);
+  };
+  manner.members = meeting_->members();
   manner.wants_to_leave = [this] { return hand_.wants_to_leave() || is_interrupted != 0; };
   manner.tell = [this](const std::string& what) { hand_.notice(what); };
   manner.onlooker = &player;

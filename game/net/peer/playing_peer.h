@@ -45,6 +45,8 @@ class PlayingPeer final : public MatchSource {
 
  private:
   void run();
+  void meet();
+  bool share_or_come_again(int tries);
   void share();
   void end(const PlayedPart& part);
   void write_record(const PlayedPart& part);
@@ -54,6 +56,7 @@ class PlayingPeer final : public MatchSource {
   SharedGame game_;
   Hand hand_;
   PeerMatch match_;
+  Place place_;
   rti::SocketTransport sockets_{"tcp"};
   std::unique_ptr<Meeting> meeting_;
   std::thread thread_;

@@ -25,7 +25,7 @@ bool has_goals(const Scene& scene) { return scene.world.field.goal_width > 0.0; 
 
 BatController controller_of(const Scene& scene, std::uint32_t player) { return BatController(scene.bodies.bats[player].thrust); }
 
-/// Tells the user who is gone.
+/// Tells the user who is gone, and who came.
 class Membership {
  public:
   Membership(const peer::Session& session, const Manner& manner) : session_(session), manner_(manner), members_(session.members()) {}
@@ -34,6 +34,8 @@ class Membership {
     if (!manner_.tell || session_.has_left() || (session_.members() == members_ && session_.lost().size() == lost_)) return;
     for (const peer::PeerNumber peer : members_)
       if (!is_in(session_.members(), peer) && !is_in(session_.lost(), peer)) manner_.tell("peer " + std::to_string(peer) + " has left in good order");
+    for (const peer::PeerNumber peer : session_.members())
+      if (!is_in(members_, peer)) manner_.tell("peer " + std::to_string(peer) + " joins at " + std::to_string(session_.peer().now()) + " s");
     members_ = session_.members();
     const std::string who = members_.size() == 1 ? "this peer goes on alone" : std::to_string(members_.size()) + " peers go on";
     if (std::exchange(lost_, session_.lost().size()) != session_.lost().size()) manner_.tell(session_.last_loss() + ": " + who + " from " + std::to_string(session_.peer().now()) + " s");
@@ -121,17 +123,27 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   return hash.value();
 }
 
-std::vector<peer::Seat> SharedGame::seats(std::span<const Guest> guests) const {
-  std::vector<peer::Seat> seats;
+/// Those who begin.
+std::vector<peer::Player> SharedGame::players(const Terms& terms, std::span<const Guest> guests) const {
+  std::vector<peer::Player> players;
   std::vector<std::uint8_t> is_taken(start_.player_count(), 0);
-  for (peer::PeerNumber number = 0; number < guests.size(); ++number)
-    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count; player < end; ++player) {
+  for (peer::PeerNumber number = 0; number < std::min<std::size_t>(terms.peer_count, guests.size()); ++number) {
+    for (std::uint64_t player = guests[number].first_bat, end = player + guests[number].bat_count; player < end; ++player)
       if (player >= is_taken.size() || std::exchange(is_taken[player], std::uint8_t{1}) != 0)
         throw peer::ProtocolError("peer " + std::to_string(number) + " plays bat " + std::to_string(player) + ", which is taken or not there");
-      const auto k = static_cast<std::uint32_t>(player);
-      const bool is_hand = player < std::uint64_t{guests[number].first_bat} + guests[number].hand_count;
-      seats.push_back({.bat = start_.bat(k)->index, .peer = number, .period = is_hand ? 0.0 : decision_period, .phase = decision_phase(k), .puck_count = guests[number].puck_count});
-    }
+    players.push_back({number, guests[number].first_bat, guests[number].bat_count, guests[number].puck_count, guests[number].hand_count});
+  }
+  return players;
+}
+
+std::vector<peer::Seat> SharedGame::seats(const peer::Player& player) const {
+  if (player.bat_count > start_.player_count() || player.first_bat > start_.player_count() - player.bat_count)
+    throw peer::ProtocolError("peer " + std::to_string(player.peer) + " plays bats that are not there");
+  std::vector<peer::Seat> seats;
+  for (std::uint32_t k = player.first_bat; k < player.first_bat + player.bat_count; ++k) {
+    const bool is_hand = k < player.first_bat + player.hand_count;
+    seats.push_back({.bat = start_.bat(k)->index, .peer = player.peer, .period = is_hand ? 0.0 : decision_period, .phase = decision_phase(k), .puck_count = player.puck_count});
+  }
   return seats;
 }
 
@@ -162,12 +174,18 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.end_of = [terms, count](std::uint64_t k) { return k == count ? terms.until : k > count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
   settings.balance_windows = terms.balance_windows;
   settings.keys = thrusts();
-  settings.seats = seats(guests);
   settings.goals = goal_rules(terms.window);
-  peer::Session session(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
+  settings.bat_count = has_keys() ? 0 : start_.player_count();
+  settings.seats_of = [this](const peer::Player& player) { return seats(player); };
+  if (manner.members.empty()) settings.players = players(terms, guests);
+  std::optional<peer::Session> made;
+  if (manner.members.empty()) made.emplace(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
+  else made.emplace(start_.world(), std::move(settings), mail, manner.members);
+  peer::Session& session = *made;
   const Guest& self = guests[number];
-  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, terms.until);
+  Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, session.peer().now(), terms.until);
   Membership membership(session, manner);
+  if (!manner.members.empty() && manner.tell) manner.tell("peer " + std::to_string(number) + " is in from " + std::to_string(session.peer().now()) + " s");
   while (!session.is_over()) {
     if (manner.before_window) manner.before_window(session.peer().now());
     if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
@@ -181,7 +199,9 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   part.has_left = session.has_left();
   part.was_last = part.has_left && session.members().size() == 1;
   if (!session.has_left()) end(session, part);
+  part.has_left = session.has_left();
   membership.tell();
+  part.members = session.members().size();
   part.counters = session.counters();
   part.lost = session.lost();
   part.time = session.peer().now();
@@ -205,6 +225,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 /// Everybody has told everybody what it has, and what its players did.
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   const std::vector<peer::Arrivals> parts = session.end();
+  if (session.has_left()) return;
   const physics::World& whole = start_.world();
   const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");

@@ -20,6 +20,7 @@ struct PlayedPart {
   peer::SessionCounters counters;
   bool has_left = false;                ///< before the end, in good order: then there is no hash
   bool was_last = false;                ///< and nobody else was left
+  std::uint64_t members = 0;            ///< how many played on in the end
   std::vector<peer::PeerNumber> lost;   ///< who was
   double time = 0.0;                    ///< how far it came [s]
   std::uint64_t owned = 0, ghosts = 0;  ///< at the end
@@ -46,8 +47,9 @@ struct Manner {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
   std::function<void(double)> before_window;
   std::function<bool()> wants_to_leave;
-  std::function<void(const std::string&)> tell;  ///< the user, of losses
+  std::function<void(const std::string&)> tell;  ///< the user, of losses and newcomers
   Onlooker* onlooker = nullptr;                  ///< or nobody
+  std::vector<peer::PeerNumber> members{};       ///< of a newcomer while others play: whom it was told of
 };
 
 /// The same for all who are given the same scene and keys.
@@ -62,7 +64,8 @@ class SharedGame {
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
-  /// Plays the part of peer `number` of `guests` to the end of `terms`. Throws peer::ProtocolError, peer::Halt, and what `mail` throws.
+  /// Plays the part of peer `number` of `guests` to the end of `terms`; of those who come later `guests` need not tell. Throws peer::ProtocolError, peer::Halt (of a newcomer that is not in yet
+  /// peer::SentAway: it may ask again), and what `mail` throws.
   PlayedPart play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const;
 
   /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
@@ -80,7 +83,8 @@ class SharedGame {
   double first_halo(double window) const;
   std::optional<peer::GoalRules> goal_rules(double window) const;
   std::vector<peer::Key> thrusts() const;
-  std::vector<peer::Seat> seats(std::span<const Guest> guests) const;
+  std::vector<peer::Player> players(const Terms& terms, std::span<const Guest> guests) const;
+  std::vector<peer::Seat> seats(const peer::Player& player) const;
   std::vector<InputEvent> keys_with(std::span<const peer::Arrivals> logs) const;
   std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until, const peer::Scoring& scoring) const;
   void end(peer::Session& session, PlayedPart& part) const;

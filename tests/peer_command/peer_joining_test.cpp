@@ -1,0 +1,110 @@
+// Processes of rink-peer that come while others play, leave, and are killed: whoever is there at the end has the hash of one engine.
+#include "rti/transport/tcp.h"
+#include "tests/peer_command/peer_processes.h"
+
+namespace rink::game {
+namespace {
+
+class PeerJoining : public PeerCommand {
+ protected:
+  void pass(std::chrono::milliseconds time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    until([&] { return std::chrono::steady_clock::now() >= end; });
+  }
+  bool is_in(const Process& peer) {
+    return until([&] { return peer.last_words().find(" is in from ") != std::string::npos || peer.ending(); }) && !peer.ending();
+  }
+};
+
+TEST_F(PeerJoining, OneAloneIsJoinedThroughAnybodyAndGoesWithoutMissing) {
+  for (const char* transport : {"tcp", "shm"}) {
+    const Words real{"--transport", transport, "--pace", "realtime"};
+    Process& first = found(1, "4", real);
+    ASSERT_TRUE(are_playing({&first}));
+    pass(300ms);
+    Process& second = join(first, real);
+    ASSERT_TRUE(is_in(second)) << second.last_words();
+    Process& third = join(second, real);
+    ASSERT_TRUE(is_in(third)) << third.last_words();
+    ASSERT_EQ(kill(first.id(), SIGINT), 0);
+    ASSERT_TRUE(ends(first));
+    EXPECT_EQ(first.ending()->exit_status, 130);
+    Process& fourth = join(third, real);
+    ASSERT_TRUE(is_in(fourth)) << fourth.last_words();
+    for (const Process* peer : {&second, &third, &fourth}) {
+      ASSERT_TRUE(ends(*peer));
+      EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+      EXPECT_EQ(hash_of(*peer), truth(4.0)) << transport;
+      EXPECT_EQ(peer->line_after("  \"recoveries\": "), "0,");
+      EXPECT_NE(peer->line_after("  \"own_events\": "), "0,");
+    }
+  }
+}
+
+TEST_F(PeerJoining, BringsItsOwnBotsAndIsRefusedMoreThanAreFree) {
+  const std::string file = (folder_ / "live.keys").string();
+  Process& first = found(1, "3", {"--pace", "realtime", "--bots", "3", "--record", file});
+  ASSERT_TRUE(are_playing({&first}));
+  Process& second = join(first, {"--bots", "4", "--players", "chaser,random"});
+  ASSERT_TRUE(is_in(second)) << second.last_words();
+  const Process& greedy = join(second, {"--bots", "2"});
+  ASSERT_TRUE(ends(greedy));
+  EXPECT_EQ(greedy.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
+  EXPECT_THAT(greedy.last_words(), HasSubstr("it wants to play 2 bats, of 8 here 1 are free"));
+  const Process& other = join(second, {"--seed", "9"});
+  ASSERT_TRUE(ends(other));
+  EXPECT_THAT(other.last_words(), HasSubstr("another scene"));
+  ASSERT_TRUE(ends(first) && ends(second));
+  const KeyLog log = read_key_log(std::filesystem::path(file));
+  Game one(load_scene(scene()));
+  for (const InputEvent& event : log.events) one.submit(event);
+  one.advance(3.0);
+  EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(), [](const InputEvent& event) { return event.player >= 3; }));
+  for (const Process* peer : {&first, &second}) EXPECT_EQ(hash_of(*peer), printed(one.hash()));
+}
+
+TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {
+  const auto free_port = [] { return rti::TcpTransport().listen("127.0.0.1", 0); };
+  const std::string place = "127.0.0.1:" + std::to_string(free_port());
+  Process& early = *peers_.emplace_back(std::make_unique<Process>(test::binary_folder() + "/bin/rink-peer", Words{"--scene", scene(), "--join", place}, std::vector<int>{}));
+  pass(1000ms);
+  EXPECT_FALSE(early.ending());
+  Process& first = start({"--peers", "2", "--until", "1", "--listen", place});
+  for (const Process* peer : {&first, &early}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(hash_of(*peer), truth(1.0)) << peer->last_words();
+  }
+}
+
+TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
+  const Words real{"--pace", "realtime"};
+  Process& first = found(3, "7", real);
+  std::vector<Process*> there{&first, &join(first, real), &join(first, real)};
+  ASSERT_TRUE(are_playing({there[0], there[1], there[2]}));
+  int killed = 0;
+  for (int turn = 0; turn < 6; ++turn) {
+    Process& newcomer = join(*there.back(), real);
+    Process& another = join(*there.front(), real);
+    ASSERT_TRUE(is_in(newcomer)) << newcomer.last_words();
+    ASSERT_TRUE(is_in(another)) << another.last_words();
+    there.push_back(&newcomer), there.push_back(&another);
+    ASSERT_EQ(kill(there[0]->id(), SIGINT), 0);
+    if (turn % 2 == 0) {
+      pass(100ms);
+      ASSERT_EQ(kill(there[1]->id(), SIGKILL), 0);
+      ++killed;
+    } else {
+      ASSERT_EQ(kill(there[1]->id(), SIGTERM), 0);
+    }
+    there.erase(there.begin(), there.begin() + 2);
+  }
+  EXPECT_EQ(killed, 3);
+  for (const Process* peer : there) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(hash_of(*peer), truth(7.0));
+  }
+}
+
+}  // namespace
+}  // namespace rink::game
