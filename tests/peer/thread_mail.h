@@ -18,6 +18,10 @@ class Post {
     waiting_.push_back(std::move(bytes));
     has_come_.notify_one();
   }
+  bool is_empty() {
+    const std::lock_guard lock(mutex_);
+    return waiting_.empty();
+  }
   std::vector<std::uint8_t> take() {
     std::unique_lock lock(mutex_);
     has_come_.wait(lock, [&] { return !waiting_.empty(); });
