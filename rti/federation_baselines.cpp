@@ -9,10 +9,10 @@ namespace {
 /// Which of a run's records go to a federate, 64 slots at a time.
 class Wanted {
  public:
-  Wanted(const UpdateRun& run, const FederateInterest& interest) : run_(run), interest_(interest) {}
+  Wanted(const UpdateRun& run, const FederateInterest& interest) : run_(run), interest_(interest), heard_(interest.heard()) {}
 
   std::uint64_t word(std::size_t i) const {
-    std::uint64_t bits = run_.members.word(i) & interest_.in_scope.word(i) & ~interest_.fresh.word(i);
+    std::uint64_t bits = run_.members.word(i) & heard_.word(i) & ~interest_.fresh.word(i);
     if (interest_.is_uniform) return (interest_.by_class[run_.object_class] & run_.attributes).is_empty() ? 0 : bits;
     for (std::uint64_t left = bits; left != 0; left &= left - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(left));
@@ -41,6 +41,7 @@ class Wanted {
  private:
   const UpdateRun& run_;
   const FederateInterest& interest_;
+  const Bitmap& heard_;
 };
 
 }  // namespace

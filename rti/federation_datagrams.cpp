@@ -105,7 +105,7 @@ bool FederationExecution::Parts::gather_datagrams(std::size_t index, const Feder
   if (!cut.fits) return false;
   const bool has_changed = changed_transportation_.size() > 0;
   const bool is_whole = !has_changed && interest.is_uniform && !interest.has_fresh && interest.by_class[run.object_class].includes(run.attributes);
-  if (is_whole && is_all_in_scope(run, interest.in_scope)) {
+  if (is_whole && is_all_in_scope(run, interest.heard())) {
     batch_.add(cut);
     counters_.updates_sent += run.slots.size();
     return true;

@@ -61,6 +61,17 @@ void FederationExecution::set_federate_role(FederateHandle federate, const im::R
   if (const auto slot = parts_->joined_slot(federate)) parts_->interest_.set_federate_role(*slot, role);
 }
 
+void FederationExecution::set_federate_heading(FederateHandle federate, const im::Heading& heading) {
+  if (const auto slot = parts_->joined_slot(federate)) parts_->interest_.set_federate_heading(*slot, heading);
+}
+
+void FederationExecution::set_object_flight(ObjectHandle object, const im::Flight& flight) {
+  const ObjectSlot slot = parts_->objects_.find(object);
+  if (slot != no_object) parts_->interest_.set_flight(slot, flight);
+}
+
+void FederationExecution::set_time(double now) { parts_->interest_.set_time(now); }
+
 void FederationExecution::flush(Outlet& outlet) {
   parts_->settle_time();
   parts_->tell_object_relevance();

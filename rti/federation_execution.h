@@ -63,6 +63,8 @@ struct FederationCounters {
   std::uint64_t scope_bytes_sent = 0, entry_bytes_sent = 0, update_bytes_sent = 0, interaction_bytes_sent = 0;
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_received = 0, updates_sent = 0;  ///< records; one sent to n federates counts n times
+  std::uint64_t updates_put_off = 0;    ///< records that a federate was not sent since its filter's tiers or budget said to wait,
+  std::uint64_t updates_caught_up = 0;  ///< and newest states that it was sent for them in the end: the rest was spared
   std::uint64_t updates_held_back = 0;  ///< records that a federate which doesn't read was not sent; its newest state follows when it does
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
@@ -107,6 +109,10 @@ class FederationExecution final : public CentralComponent {
   /// relevant. What has the number of a federate's owner is told to it whatever the filter says. Who is not there is ignored; a role ends with who has it.
   void set_object_role(ObjectHandle object, const im::Role& role);
   void set_federate_role(FederateHandle federate, const im::Role& role);
+  /// Where it looks, how it moves on from the region that it handed in last, and which time it is [s]: finite, and time never goes back.
+  void set_federate_heading(FederateHandle federate, const im::Heading& heading);
+  void set_object_flight(ObjectHandle object, const im::Flight& flight);
+  void set_time(double now);
   /// Runs the filter and turns its changes into scope changes.
   void match() override;
   void flush(Outlet& outlet) override;

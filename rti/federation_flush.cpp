@@ -6,47 +6,11 @@
 #include "rti/buffering/run_scope.h"
 #include "rti/federation_parts.h"
 #include "rti/wire/update_block.h"
+#include "rti/wire/updates_block.h"
 
 namespace rink::rti {
 
 namespace {
-
-/// A block of updates whose values are written in place; completed by its destructor, nothing if it stayed empty.
-class UpdatesBlock {
- public:
-  explicit UpdatesBlock(std::vector<std::byte>& bytes) : bytes_(bytes) {}
-  ~UpdatesBlock() { close(); }
-  UpdatesBlock(const UpdatesBlock&) = delete;
-  UpdatesBlock& operator=(const UpdatesBlock&) = delete;
-
-  /// Appends what `put` appends as the coded values of one object.
-  template <class Put>
-  void append(std::uint16_t object_class, AttributeSet attributes, ObjectHandle object, Put put) {
-    if (!is_open_ || object_class != header_.object_class || attributes.bits != header_.attributes) begin(object_class, attributes);
-    std::uint64_t step = handle_step(previous_, object.value);
-    Writer(bytes_).varint(step);
-    previous_ = object.value;
-    put();
-  }
-
- private:
-  void begin(std::uint16_t object_class, AttributeSet attributes) {
-    close();
-    header_ = {object_class, attributes.bits};
-    write(bytes_, header_);
-    previous_ = 0;
-    is_open_ = true;
-  }
-  void close() {
-    if (is_open_) bytes_.push_back(std::byte{0});
-    is_open_ = false;
-  }
-
-  std::vector<std::byte>& bytes_;
-  UpdatesMessage header_;
-  std::uint32_t previous_ = 0;
-  bool is_open_ = false;
-};
 
 /// Every cache line of it.
 template <class Value>
@@ -113,7 +77,9 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   if (is_held) {
     hold_back(slot);
   } else {
+    if (interest_.of(slot).turns) take_turns(slot);
     write_fresh_states(slot, entry_end);
+    if (interest_.of(slot).turns) catch_up(slot);
     if (federate.way && !federate.way->due.empty()) write_due_states(slot);
     gather_runs(slot);
     send_datagrams(federate, outlet);
@@ -129,7 +95,10 @@ void FederationExecution::Parts::flush_federate(std::uint32_t slot, Outlet& outl
   if (is_all_told_) interest.has_fresh = false;
   for (const ObjectSlot told : interest.pressing) interest.fresh.erase(told);
   interest.pressing.clear();
-  for (const ObjectSlot told : told_whole_) interest.fresh.erase(told);  // not before: their updates in this flush are part of what was told
+  for (const ObjectSlot told : told_whole_) {
+    interest.fresh.erase(told);  // not before: their updates in this flush are part of what was told
+    if (interest.turns) interest.turns->late.told(told);
+  }
   if (pieces_.empty() && scratch_.size() == frame_header_size) {
     if (now_ - federate.last_said < settings_.patience.heartbeat_s) return;
     say(scratch_, HeartbeatMessage{});
@@ -225,6 +194,10 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
       is_whole = false;
       return false;
     }
+    if (interest.turns && interest.turns->waiting.contains(fresh)) {
+      is_whole = false;
+      return true;
+    }
     told_whole_.push_back(fresh);
     const Object& object = objects_[fresh];
     if (!object.is_alive) return true;
@@ -282,7 +255,7 @@ void FederationExecution::Parts::gather_runs(std::uint32_t slot) {
     const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
     if (wanted.is_empty()) continue;
     if (wanted != run.attributes) gather_cut_run(run, interest);
-    else if (!interest.has_fresh && is_all_in_scope(run, interest.in_scope)) {
+    else if (!interest.has_fresh && is_all_in_scope(run, interest.heard())) {
       write_stamp(run.stamp);
       add_shared(run.message);
       counters_.updates_sent += run.slots.size();

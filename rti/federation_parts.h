@@ -248,6 +248,11 @@ class FederationExecution::Parts {
   void announce(std::uint32_t slot, ObjectSlot object);
   void press(std::uint32_t slot, ObjectSlot object);
   void write_fresh_states(std::uint32_t slot, std::size_t end);
+  // Tiers and budgets (federation_turns.cpp). Nothing is done for a filter that says neither.
+  void take_turns(std::uint32_t slot);
+  void note_late(std::uint32_t slot, Turns& turns);
+  std::size_t bytes_due(std::uint32_t slot, ObjectSlot object) const;
+  void catch_up(std::uint32_t slot);
   bool holds_back(std::uint32_t slot, const Outlet& outlet);
   void hold_back(std::uint32_t slot);
   void gather_runs(std::uint32_t slot);

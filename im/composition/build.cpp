@@ -32,6 +32,7 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"hierarchical", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hybrid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hysteresis", "margin", 0.0, metres_max, false, true, false},
+                          Key{"priority", "budget", 1.0, metres_max, true, false, false},
                           Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"swept", "disc", 0.0, 1.0, true, false, false},
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},
@@ -127,7 +128,7 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   }
   if (stage.name == "dwell") return make_dwell(build_inner(), static_cast<std::uint32_t>(stage.parameter("matches", 1.0)));
   if (stage.name == "swept") return make_swept(build_inner(), stage.parameter("horizon", 0.0), stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
-  if (stage.name == "priority") return make_priority(build_inner());
+  if (stage.name == "priority") return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
   // Rings measure where those who fly are now, if what they stand behind knows of flights.
   const Expression* const swept = swept_in(inner);
   const auto make_ring = [&] {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "im/composition/parts.h"
-#include "im/stages/priority_order.h"
+#include "im/priority_order.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
@@ -11,7 +11,7 @@ namespace {
 
 class Priority final : public Parts {
  public:
-  explicit Priority(std::vector<std::unique_ptr<Filter>> inner) : Parts(std::move(inner)) {}
+  Priority(std::vector<std::unique_ptr<Filter>> inner, std::size_t budget) : Parts(std::move(inner)), order_(budget) {}
 
   void set_update_region(Entity entity, const Region& region) override {
     order_.place_entity(entity, region);
@@ -93,24 +93,28 @@ void PriorityOrder::take(std::span<const Change> changes) {
   }
 }
 
-std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber) {
-  ranked_.clear();
-  items_.clear();
-  if (subscriber >= entries_.size()) return {};
+double PriorityOrder::urgency(const Region& own, const Entry& entry) const {
   // Halved, as everywhere: the differences of the largest numbers have no double.
-  const Region& own = subscribers_[subscriber];
   const double reach = std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y);
-  for (const Entry& entry : entries_[subscriber].span()) {
-    const Region& at = entities_[entry.entity];
-    const double x = (0.25 * at.low_x + 0.25 * at.high_x) - (0.25 * own.low_x + 0.25 * own.high_x), y = (0.25 * at.low_y + 0.25 * at.high_y) - (0.25 * own.low_y + 0.25 * own.high_y);
-    const double distance = 2.0 * std::sqrt(x * x + y * y), weight = reach > 0.0 ? 1.0 / (1.0 + std::min(distance / reach, 1e9)) : 1.0;
-    const double waited = entry.is_state ? 1.0 : static_cast<double>(now_ - entry.sent);
-    ranked_.push_back({std::ldexp(waited * weight, -entry.tier), {entry.entity, entry.is_state}});
-  }
-  std::sort(ranked_.data(), ranked_.data() + ranked_.size(), [](const Ranked& a, const Ranked& b) {
+  const Region& at = entities_[entry.entity];
+  const double x = (0.25 * at.low_x + 0.25 * at.high_x) - (0.25 * own.low_x + 0.25 * own.high_x), y = (0.25 * at.low_y + 0.25 * at.high_y) - (0.25 * own.low_y + 0.25 * own.high_y);
+  const double distance = 2.0 * std::sqrt(x * x + y * y), weight = reach > 0.0 ? 1.0 / (1.0 + std::min(distance / reach, 1e9)) : 1.0;
+  const double waited = static_cast<double>(now_ - entry.sent) + (entry.is_state ? 1.0 : 0.0);
+  return std::ldexp(waited * weight, -entry.tier);
+}
+
+std::size_t PriorityOrder::sort() {
+  Ranked* const end = ranked_.data() + ranked_.size();
+  std::sort(ranked_.data(), end, [](const Ranked& a, const Ranked& b) {
     if (a.item.is_state != b.item.is_state) return a.item.is_state;
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.item.entity < b.item.entity;
   });
+  return static_cast<std::size_t>(std::find_if(ranked_.data(), end, [](const Ranked& each) { return !each.item.is_state; }) - ranked_.data());
+}
+
+std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber) {
+  items_.clear();
+  rank(subscriber, [](const Item&) { return std::size_t{1}; });
   for (const Ranked& each : ranked_.span()) items_.push_back(each.item);
   return items_.span();
 }
@@ -124,10 +128,10 @@ void PriorityOrder::sent(Subscriber subscriber, const Item& item, std::size_t by
   entry->sent = now_;
 }
 
-std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner) {
+std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget) {
   std::vector<std::unique_ptr<Filter>> parts;
   parts.push_back(std::move(inner));
-  return std::make_unique<Priority>(std::move(parts));
+  return std::make_unique<Priority>(std::move(parts), budget);
 }
 
 }  // namespace rink::im

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "im/filter.h"
+#include "rti/distribution/turns.h"
 #include "rti/fom/dimension_set.h"
 #include "rti/objects/bitmap.h"
 #include "rti/objects/object_table.h"
@@ -51,6 +54,10 @@ struct FederateInterest {
   std::vector<ObjectSlot> pressing;     ///< announced, and their state told, before all else in this flush, since something in time-stamp order speaks of them
   bool is_uniform = true;               ///< all of a class's objects in scope have the same attributes: `by_class`; else `by_object`
   std::vector<AttributeSet> by_class, by_object;
+  std::unique_ptr<Turns> turns;         ///< null unless the filter says that some of those in scope wait
+
+  /// Who is told of by the flush at hand.
+  const Bitmap& heard() const { return turns ? turns->heard : in_scope; }
 
   /// What it is told of an object.
   AttributeSet told(ObjectSlot slot, std::uint16_t object_class) const {
@@ -130,6 +137,19 @@ class DataDistribution {
   /// Both last until who has them is gone.
   virtual void set_role(ObjectSlot, const im::Role&) {}
   virtual void set_federate_role(std::uint32_t /*federate*/, const im::Role&) {}
+
+  /// Where a federate looks, how an object moves on, and which time it is [s]; each until it is said anew or a region handed in.
+  virtual void set_federate_heading(std::uint32_t /*federate*/, const im::Heading&) {}
+  virtual void set_flight(ObjectSlot, const im::Flight&) {}
+  virtual void set_time(double /*now*/) {}
+
+  /// Of filters that say tiers, or have a budget: fills `turns->waiting` with who is not to be told of by the flush at hand, for the tier's turn has not come. Asked once for each
+  /// flush of a federate that has `turns`.
+  virtual void take_turns(std::uint32_t /*federate*/) {}
+  /// Adds to it who does not fit into the budget; `bytes_due(object)` are what telling of one takes, 0 if nothing is to be told. False if there is no budget.
+  using BytesDue = std::function<std::size_t(ObjectSlot)>;
+  virtual bool has_budget() const { return false; }
+  virtual void share_out(std::uint32_t /*federate*/, const BytesDue&) {}
 
   /// Those of an object's attributes that the last match put in its scope by subscriptions that are not passive.
   virtual AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) = 0;

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "im/priority_order.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {
 
 Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership, std::unique_ptr<im::Filter> filter)
-    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)), traits_(filter_->traits()) {
+    : fom_(fom), objects_(objects), ownership_(ownership), filter_(std::move(filter)), traits_(filter_->traits()), budget_(filter_->priority() ? filter_->priority()->budget() : 0) {
   const auto x = fom.dimension("X"), y = fom.dimension("Y");
   if (!x || !y) return;
   x_ = *x, y_ = *y;
@@ -24,6 +25,7 @@ void Interest::add_federate(std::uint32_t federate) {
   DeclaredInterest& interest = *federates_[federate];
   told_[federate] = &interest;
   interest.federate = federate;
+  if (traits_.says_tiers || budget_ > 0) interest.turns = std::make_unique<Turns>();
   interest.everywhere.declared.resize(fom_.object_classes().size());
   interest.everywhere.expanded = interest.by_class = interest.everywhere.declared;
 }
@@ -142,7 +144,7 @@ Interest::Regional& Interest::regional(DeclaredInterest& interest, RegionSlot sl
   subscribers_[added.subscriber] = interest.federate;
   if (!region.is_committed) return added;
   filter_->set_subscription_region(added.subscriber, region.plane);
-  tell_subscriber_role(interest, added.subscriber);
+  tell_subscriber(interest, added.subscriber);
   return added;
 }
 
@@ -239,6 +241,7 @@ AttributeSet Interest::told_actively(std::uint32_t federate, ObjectSlot slot) {
 }
 
 void Interest::match() {
+  ++match_;
   take_filter_changes();
   for (const auto& interest : federates_)
     if (interest && interest->is_changed) reconsider_all(*interest);
@@ -256,6 +259,7 @@ void Interest::take_filter_changes() {
     Regional* regional = find(*federates_[subscribers_[each.subscriber]], each.subscriber);
     if (each.transition == im::Transition::left) regional->inside.erase(each.entity);
     else regional->inside.insert(each.entity);  // it may be there already and only change its tier
+    if (traits_.says_tiers) set_tier(*regional, each.entity, each.transition == im::Transition::left ? 0u : each.tier);
   }
   for (const im::Change& each : changes) {
     DeclaredInterest& interest = *federates_[subscribers_[each.subscriber]];
@@ -332,7 +336,8 @@ void Interest::reconsider(DeclaredInterest& interest, ObjectSlot slot) {
   interest.by_object[slot] = is;
 }
 
-void Interest::settle(FederateInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is) {
+void Interest::settle(DeclaredInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is) {
+  if (traits_.says_tiers && !is.is_empty()) place_in_tier(interest, slot, was.is_empty());
   if (was == is) return;
   touch(slot);
   if (was.is_empty()) {

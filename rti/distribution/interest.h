@@ -45,6 +45,7 @@ struct DeclaredInterest : FederateInterest {
     bool is_placed = false, is_planar = false;
     ClassInterest classes;
     Bitmap inside;                  ///< entities whose region overlaps in the plane, as of the last match
+    std::vector<Bitmap> tiers;      ///< of those, who is in tier 1, 2 ..., as far as there are any
   };
   struct InteractionRegion {
     std::uint16_t interaction_class = 0;
@@ -56,6 +57,7 @@ struct DeclaredInterest : FederateInterest {
   std::vector<InteractionRegion> interactions;
   std::vector<RegionSlot> regions;      ///< by handle
   im::Role role;
+  im::Heading heading;
   bool is_changed = false;              ///< subscriptions differ from those of the last match
 };
 
@@ -93,6 +95,12 @@ class Interest : public DataDistribution {
   AttributeSet told_actively(std::uint32_t federate, ObjectSlot slot) override;
   void set_role(ObjectSlot slot, const im::Role& role) override;
   void set_federate_role(std::uint32_t federate, const im::Role& role) override;
+  void set_federate_heading(std::uint32_t federate, const im::Heading& heading) override;
+  void set_flight(ObjectSlot slot, const im::Flight& flight) override;
+  void set_time(double now) override;
+  void take_turns(std::uint32_t federate) override;
+  bool has_budget() const override { return budget_ > 0; }
+  void share_out(std::uint32_t federate, const BytesDue& bytes_due) override;
 
   void match() override;
   const DistributionCounters& counters() const override { return counters_; }
@@ -129,10 +137,14 @@ class Interest : public DataDistribution {
   bool regions_overlap(const DistributedRegion& a, const DistributedRegion& b);
   Range range(const DistributedRegion& region, DimensionHandle dimension) const;
 
-  // What the filter is told beside regions (interest_roles.cpp).
+  // What the filter is told beside regions (interest_knowledge.cpp).
   void tell_role(RegionSlot slot);
-  void tell_subscriber_role(const DeclaredInterest& interest, im::Subscriber subscriber);
+  void tell_subscriber(const DeclaredInterest& interest, im::Subscriber subscriber);
   bool is_own(const DeclaredInterest& interest, ObjectSlot slot) const;
+
+  // Whose turn it is (interest_turns.cpp).
+  void set_tier(Regional& regional, im::Entity entity, std::uint32_t tier);
+  void place_in_tier(DeclaredInterest& interest, ObjectSlot slot, bool is_new);
 
   // Subscriptions and what follows from them (interest.cpp).
   Regional& regional(DeclaredInterest& interest, RegionSlot region);
@@ -152,7 +164,7 @@ class Interest : public DataDistribution {
   void reconsider_around(DeclaredInterest& interest, const Regional& regional);
   void reconsider_all(DeclaredInterest& interest);
   void reconsider(DeclaredInterest& interest, ObjectSlot slot);
-  void settle(FederateInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is);
+  void settle(DeclaredInterest& interest, ObjectSlot slot, AttributeSet was, AttributeSet is);
   bool uniform_classes(const DeclaredInterest& interest, std::vector<AttributeSet>& by_class) const;
 
   const Fom& fom_;
@@ -160,6 +172,9 @@ class Interest : public DataDistribution {
   const Ownership& ownership_;
   std::unique_ptr<im::Filter> filter_;
   const im::Traits traits_;                                      ///< of it
+  const std::size_t budget_;                                     ///< of its priority [bytes]; 0: none
+  std::uint64_t match_ = 0;                                      ///< number of the last match
+  Bitmap put_off_, sent_;                                        ///< of the federate whose budget is shared out
   DimensionHandle x_, y_;                                        ///< if the model has both
   DimensionSet plane_;                                           ///< of these
   std::vector<std::unique_ptr<DeclaredInterest>> federates_;     ///< by federate slot; null where nobody is

@@ -84,7 +84,7 @@ void Interest::tell_filter(const DistributedRegion& region, RegionSlot slot, boo
   for (const Regional& each : interest.regionals) {
     if (each.region != slot) continue;
     filter_->set_subscription_region(each.subscriber, region.plane);
-    if (is_new) tell_subscriber_role(interest, each.subscriber);
+    if (is_new) tell_subscriber(interest, each.subscriber);
   }
 }
 

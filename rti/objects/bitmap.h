@@ -23,6 +23,9 @@ class Bitmap {
     if (index >= words_.size()) words_.resize(index + 1);
     words_[index] |= word;
   }
+  void erase_word(std::size_t index, std::uint64_t word) {
+    if (index < words_.size()) words_[index] &= ~word;
+  }
   void erase(std::uint32_t number) {
     if (number / 64 < words_.size()) words_[number / 64] &= ~(std::uint64_t{1} << number % 64);
   }

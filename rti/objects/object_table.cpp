@@ -116,6 +116,16 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
   object.valued = object.valued | set;
 }
 
+std::size_t ObjectTable::size_of(ObjectSlot slot, AttributeSet set) const {
+  const Object& object = objects_[slot];
+  std::size_t size = 0;
+  set.for_each([&](AttributeHandle each) {
+    const Attribute& attribute = fom_.object_classes()[object.object_class].attributes[each.value];
+    size += is_fixed(attribute) ? *attribute.size : object.varying[each.value].size();
+  });
+  return size;
+}
+
 void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const {
   const Object& object = objects_[slot];
   assert(object.valued.includes(set));

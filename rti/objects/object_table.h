@@ -64,6 +64,8 @@ class ObjectTable {
   void store(ObjectSlot slot, AttributeSet set, Bytes coded);
   /// Appends the coded values of `set`, all of which must be valued.
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
+  /// How many bytes that would append.
+  std::size_t size_of(ObjectSlot slot, AttributeSet set) const;
 
  private:
   struct Block {

@@ -1,4 +1,4 @@
-// Roles of objects and federates: what the filter knows of them beside regions, and what a federate owns.
+// Roles, headings and flights: what the filter knows of objects and federates beside regions, and what a federate owns.
 #include "rti/distribution/interest.h"
 
 namespace rink::rti {
@@ -18,7 +18,7 @@ void Interest::set_federate_role(std::uint32_t federate, const im::Role& role) {
   interest.is_changed |= interest.role.owner != role.owner && !interest.regionals.empty();
   interest.role = role;
   for (const Regional& each : interest.regionals)
-    if (each.is_placed) tell_subscriber_role(interest, each.subscriber);
+    if (each.is_placed) tell_subscriber(interest, each.subscriber);
 }
 
 /// Objects that share a region differ to the filter in nothing, so they have in common what they agree in; one of them that is always relevant takes the others along.
@@ -36,8 +36,28 @@ void Interest::tell_role(RegionSlot slot) {
   filter_->set_entity_role(region.entity, common);
 }
 
-void Interest::tell_subscriber_role(const DeclaredInterest& interest, im::Subscriber subscriber) {
+void Interest::tell_subscriber(const DeclaredInterest& interest, im::Subscriber subscriber) {
   if (traits_.uses_roles) filter_->set_subscriber_role(subscriber, interest.role);
+  if (traits_.uses_headings) filter_->set_heading(subscriber, interest.heading);
+}
+
+void Interest::set_federate_heading(std::uint32_t federate, const im::Heading& heading) {
+  DeclaredInterest& interest = *federates_[federate];
+  if (interest.heading == heading) return;
+  interest.heading = heading;
+  if (!traits_.uses_headings) return;
+  for (const Regional& each : interest.regionals)
+    if (each.is_placed) filter_->set_heading(each.subscriber, heading);
+}
+
+void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {
+  if (!traits_.uses_flights) return;
+  for (const Association& each : associations_of(slot))
+    if (const DistributedRegion& region = regions_[each.region]; region.is_placed && region.is_committed) filter_->set_flight(region.entity, flight);
+}
+
+void Interest::set_time(double now) {
+  if (traits_.uses_flights) filter_->set_time(now);
 }
 
 bool Interest::is_own(const DeclaredInterest& interest, ObjectSlot slot) const {

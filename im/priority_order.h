@@ -1,0 +1,130 @@
+// Who of those that are relevant to a subscriber is to be sent first, when not all fit.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "im/filter.h"
+#include "im/matching/buffer.h"
+
+namespace rink::im {
+
+/// What was sent, and what not, in two classes: the whole state of who entered, and updates of who was there.
+struct PriorityCounts {
+  std::uint64_t states = 0, state_bytes = 0;
+  std::uint64_t updates = 0, update_bytes = 0;
+  std::uint64_t put_off = 0;  ///< that a fill had no room for
+};
+
+/// Who entered comes first, then whose state is due; of each the most urgent. Urgency is the number of matches since it was last sent, or for a state on entry one more than since
+/// it entered, divided by 1 + d / r with d the distance of the middles and r half the shorter side of the subscription, and by 2^tier. It grows with every match, and where states
+/// and updates are both due they go first in turns (by `fill`), so nobody starves. Equals come by entity.
+class PriorityOrder {
+ public:
+  static constexpr std::size_t not_now = ~std::size_t{0};
+
+  /// `budget` [bytes] is for one subscriber and match, to be kept by who sends; 0: none.
+  explicit PriorityOrder(std::size_t budget = 0) : budget_(budget) {}
+  std::size_t budget() const { return budget_; }
+
+  struct Item {
+    Entity entity;
+    bool is_state;  ///< its whole state is due
+  };
+
+  /// All of them, the most urgent first. Valid until the next call of any member of this or its filter. Nothing is computed until it is asked for.
+  std::span<const Item> order(Subscriber subscriber);
+  /// Takes note that an item was sent in so many bytes.
+  void sent(Subscriber subscriber, const Item& item, std::size_t bytes);
+
+  /// Takes from the front of the order as long as `bytes_of(item)` fit into `budget`, and stops at the first that does not, so that large ones get their turn; one that alone
+  /// exceeds the budget is taken alone. Notes them as sent. Of 0 bytes nothing is due: it is as if it had been sent, and in no list; nor is what is `not_now`, which goes on waiting.
+  /// Valid until the next call.
+  template <class BytesOf>
+  std::span<const Item> fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of);
+
+  /// Those for which the last `fill` had no room. Valid until the next call.
+  std::span<const Item> put_off() const { return put_off_.span(); }
+
+  const PriorityCounts& counts() const { return counts_; }
+
+  // What its filter tells it.
+  void place_entity(Entity entity, const Region& region) { place(entities_, entity, region); }
+  void place_subscriber(Subscriber subscriber, const Region& region) { place(subscribers_, subscriber, region); }
+  void remove_entity(Entity entity);
+  void remove_subscriber(Subscriber subscriber);
+  void take(std::span<const Change> changes);
+
+ private:
+  struct Entry {
+    Entity entity;
+    std::uint8_t tier;
+    bool is_state;
+    std::uint64_t sent;  ///< at which match
+  };
+  struct Ranked {
+    double urgency;
+    Item item;
+    std::size_t bytes;
+  };
+  /// Into `ranked_`, states first; returns how many states.
+  template <class BytesOf>
+  std::size_t rank(Subscriber subscriber, const BytesOf& bytes_of);
+  double urgency(const Region& own, const Entry& entry) const;
+  std::size_t sort();
+  static void place(std::vector<Region>& places, std::uint32_t id, const Region& region);
+  Entry* find(Subscriber subscriber, Entity entity);
+
+  std::size_t budget_;
+  std::uint64_t now_ = 0;
+  std::vector<Region> entities_, subscribers_;
+  std::vector<Buffer<Entry>> entries_;  // by subscriber, ascending
+  Buffer<Ranked> ranked_;
+  Buffer<Item> items_, filled_, put_off_;
+  PriorityCounts counts_;
+};
+
+template <class BytesOf>
+std::size_t PriorityOrder::rank(Subscriber subscriber, const BytesOf& bytes_of) {
+  ranked_.clear();
+  if (subscriber >= entries_.size()) return 0;
+  Buffer<Entry>& entries = entries_[subscriber];
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    Entry& entry = entries.data()[i];
+    const Item item{entry.entity, entry.is_state};
+    const std::size_t bytes = bytes_of(item);
+    if (bytes == not_now) continue;
+    if (bytes > 0) ranked_.push_back({urgency(subscribers_[subscriber], entry), item, bytes});
+    else entry.is_state = false, entry.sent = now_;
+  }
+  return sort();
+}
+
+template <class BytesOf>
+std::span<const PriorityOrder::Item> PriorityOrder::fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of) {
+  filled_.clear();
+  put_off_.clear();
+  std::size_t used = 0, state = 0;
+  const std::size_t states = rank(subscriber, bytes_of), all = ranked_.size();
+  std::size_t update = states;
+  const auto take = [&](std::size_t& next, std::size_t end) {
+    for (; next < end && used < budget; ++next) {
+      const Ranked& each = ranked_.data()[next];
+      if (used + each.bytes > budget && !filled_.empty()) return;
+      used += each.bytes;
+      filled_.push_back(each.item);
+      sent(subscriber, each.item, each.bytes);
+    }
+  };
+  const bool are_updates_first = now_ % 2 == 0;
+  if (are_updates_first) take(update, all);
+  take(state, states);
+  if (!are_updates_first) take(update, all);
+  for (; state < states; ++state) put_off_.push_back(ranked_.data()[state].item);
+  for (; update < all; ++update) put_off_.push_back(ranked_.data()[update].item);
+  counts_.put_off += put_off_.size();
+  return filled_.span();
+}
+
+}  // namespace rink::im
