@@ -8,6 +8,12 @@
 
 namespace rink::game {
 
+/// Where held keys push: opposed ones cancel.
+inline physics::Vector2 direction(const KeysHeld& keys) {
+  const auto along = [&keys](Key plus, Key minus) { return static_cast<double>(keys.is_down(plus)) - static_cast<double>(keys.is_down(minus)); };
+  return {along(Key::right, Key::left), along(Key::up, Key::down)};
+}
+
 /// One player's hands. Each held key adds the bat's thrust in its direction, as the paper accumulates forces, so opposed keys cancel and two neighbours push diagonally.
 class BatController {
  public:
@@ -21,10 +27,7 @@ class BatController {
   void release_all() { keys_ = {}; }
 
   /// m/s^2
-  physics::Vector2 thrust() const {
-    const auto along = [this](Key plus, Key minus) { return thrust_ * (static_cast<double>(keys_.is_down(plus)) - static_cast<double>(keys_.is_down(minus))); };
-    return {along(Key::right, Key::left), along(Key::up, Key::down)};
-  }
+  physics::Vector2 thrust() const { return thrust_ * direction(keys_); }
   const KeysHeld& keys() const { return keys_; }
   std::uint32_t input_count() const { return input_count_; }
 

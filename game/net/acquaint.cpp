@@ -1,4 +1,4 @@
-// Teams are the sides of the table, owners the players by number.
+// Teams are the sides of the table, owners the players by number; who holds keys looks where they push him.
 #include "game/net/acquaint.h"
 
 namespace rink::game {
@@ -12,6 +12,11 @@ void acquaint(const Server& server, rti::FederationExecution& federation) {
   for (const auto& [object, entity] : server.registered())
     federation.set_object_role(object, {.team = team_number(entity.team), .owner = entity.player.value_or(im::Role::none), .is_always_relevant = server.is_always_relevant(entity.kind)});
   for (const auto& [federate, player] : server.seated()) federation.set_federate_role(federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team), .owner = player});
+  const im::Traits traits = federation.filter().traits();
+  if (traits.uses_headings) server.for_each_heading([&](rti::FederateHandle federate, const Vector2& to) { federation.set_federate_heading(federate, {to.x(), to.y()}); });
+  if (!traits.uses_flights) return;
+  federation.set_time(server.game().now());
+  for (const auto& [object, flight] : server.flights()) federation.set_object_flight(object, flight);
 }
 
 }  // namespace rink::game

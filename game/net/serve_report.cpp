@@ -30,6 +30,9 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
               {"writes_sent", last.transport.writes - first.transport.writes},
               {"segments_sent", last.transport.segments_sent - first.transport.segments_sent},
               {"state_bytes_sent", end.update_bytes_sent - begin.update_bytes_sent + end.entry_bytes_sent - begin.entry_bytes_sent},
+              {"entry_bytes_sent", end.entry_bytes_sent - begin.entry_bytes_sent},  // of these, the states of what came into scope
+              {"updates_put_off", end.updates_put_off - begin.updates_put_off},
+              {"updates_caught_up", end.updates_caught_up - begin.updates_caught_up},
               {"key_bytes_received", end.interaction_bytes_sent - begin.interaction_bytes_sent},  // the RTI hands them on to the server
               {"messages_sent", end.updates_sent - begin.updates_sent + end.interactions_sent - begin.interactions_sent},
               {"scope_entries", end.scope_entries - begin.scope_entries},

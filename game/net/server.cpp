@@ -49,6 +49,7 @@ void Server::joined(rti::FederateHandle) {
   ambassador_.publish_interaction_class(model_.pace);
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update, model_.inspect}) ambassador_.subscribe_interaction_class(interaction);
   publisher_ = std::make_unique<Publisher>(model_, ambassador_, *policy_, game_, sweep_);
+  if (hands_in_flights_) publisher_->hand_in_flights();
   if (flow_) announce_match();
   if (is_time_managed_) keep_time();
 }

@@ -94,6 +94,15 @@ class Server : public rti::FederateAmbassador {
   };
   std::span<const Publisher::Registered> registered() const { return publisher_->registered(); }
   std::span<const Seated> seated() const { return seated_; }
+  std::span<const Publisher::Flown> flights() const { return publisher_->flights(); }
+  /// From now on `flights` lists what flies otherwise than before, and regions are moved for it alone; to be called before the server has joined.
+  void hand_in_flights() { hands_in_flights_ = true; }
+  /// Where the players' keys push them: calls `visit(federate, direction)` for each that has a bat, (0, 0) where no key is held.
+  template <class Visit>
+  void for_each_heading(Visit visit) const {
+    for (std::uint32_t federate = 0; federate < seats_.size(); ++federate)
+      if (seats_[federate] && seats_[federate]->is_offered) visit(rti::FederateHandle{federate}, direction(game_.keys_held(seats_[federate]->player)));
+  }
   /// Whether what is of `kind` is relevant to everybody, for the scheme `always`.
   bool is_always_relevant(physics::BodyKind kind) const { return always_relevant_.has(kind); }
 
@@ -179,6 +188,7 @@ class Server : public rti::FederateAmbassador {
   RelevantKinds always_relevant_;
   std::uint32_t player_count_ = 0, turns_done_ = 0;
   bool is_synchronous_, is_time_managed_;
+  bool hands_in_flights_ = false;
   bool is_called_ = false, is_started_ = false;  ///< the players, to the start
   std::string trouble_;
   ServerCounters counters_;

@@ -41,6 +41,7 @@ Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& 
   execution_.advance_clock(now_s_());  // before anybody connects: silence counts from then on
   links_.add(link_);
   host_.add(hub_);
+  if (execution_.filter().traits().uses_flights) server_.hand_in_flights();
 }
 
 void Serving::exchange(double longest_wait_s) {
@@ -88,6 +89,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   rti::FederationSettings settings;
   settings.filter = scheme;
   settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell_size};
+  settings.filter_settings.drag = scene.world.puck_drag;
   for (const Post& post : scene.bodies.posts) settings.filter_settings.posts.push_back({post.body.position.x(), post.body.position.y(), post.body.radius});
   return settings;
 }

@@ -1,6 +1,8 @@
 // Registers what came, deletes what went, and sends what moved, in that order.
 #include "game/replication/publisher.h"
 
+#include <limits>
+
 #include "game/replication/names.h"
 #include "game/replication/trajectory.h"
 
@@ -24,6 +26,7 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
   ++tick_;
   moved_.clear();
   registered_.clear();
+  flights_.clear();
   sweep_.look_at(game.world());
   for (const Entity& entity : game.entities()) {
     Input input;
@@ -80,7 +83,7 @@ void Publisher::follow(const Game& game, const Entity& entity, Published& publis
     if (sweep_.still_holds(game.world(), entity.id, published.swept)) return;
     moved_.push_back({published.region, sweep_.region(game.world(), entity.id, published.swept)});
   } else {
-    if (entity.kind == physics::BodyKind::post) return;
+    if (entity.kind == physics::BodyKind::post || (hands_in_flights_ && fly(game, entity, published))) return;
     const physics::Vector2 centre = game.position(entity.id);
     const Position position = rounded(centre);
     if (position == published.position) return;
@@ -88,6 +91,26 @@ void Publisher::follow(const Game& game, const Entity& entity, Published& publis
     moved_.push_back({published.region, bounding_box(centre, entity.half_extent)});
   }
   ++counters_.regions_moved;
+}
+
+/// True if the entity flies by the law of pucks; its flight then says where it is, and its region how large it is.
+bool Publisher::fly(const Game& game, const Entity& entity, Published& published) {
+  const std::uint32_t version = game.world().motion_version(entity.id);
+  const bool is_in_play = game.world().is_in_play(entity.id);  // a scored puck lies where it left play, whatever its motion was
+  if (is_in_play && published.flown == version) return true;
+  const physics::Motion motion = game.world().motion(entity.id);
+  const double drag = game.world().spec().puck_drag;
+  const bool has_law = motion.drag.x() == drag && motion.drag.y() == drag && motion.rest_time == std::numeric_limits<double>::infinity();
+  if (!is_in_play || !motion.acceleration.isZero(0.0) || !(has_law || motion.velocity.isZero(0.0))) {
+    published.flown.reset();
+    return false;
+  }
+  published.flown = version;
+  published.position = rounded(game.position(entity.id));
+  moved_.push_back({published.region, bounding_box(game.position(entity.id), entity.half_extent)});
+  flights_.push_back({published.object, {motion.position.x(), motion.position.y(), motion.velocity.x(), motion.velocity.y(), motion.time}});
+  ++counters_.regions_moved;
+  return true;
 }
 
 /// Motion if the policy says so, input if it changed, in one update.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,16 @@ class Publisher {
   };
   std::span<const Registered> registered() const { return registered_; }
 
+  /// From now on the region of what flies freely is moved only when it takes another flight, and `flights` lists these: for a filter that knows how things fly on. Bats under thrust, and
+  /// pucks that friction brings to rest, fly by another law, so their regions follow them as ever. Changes nothing where regions are swept.
+  void hand_in_flights() { hands_in_flights_ = !sweep_.is_on(); }
+  struct Flown {
+    rti::ObjectHandle object;
+    im::Flight flight;
+  };
+  /// That the last `publish` found to be new.
+  std::span<const Flown> flights() const { return flights_; }
+
   /// The RTI object of `entity`, which must be in the game.
   rti::ObjectHandle object(EntityId entity) const { return published_[entity.index].object; }
 
@@ -58,12 +69,14 @@ class Publisher {
     Position position;  ///< that its region was last moved to
     Input input;
     std::uint64_t tick = 0;  ///< of its last appearance in the game
+    std::optional<std::uint32_t> flown;  ///< version of the motion whose flight was handed in
     RegionSweep::Swept swept;
   };
 
   void add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
   void retire_absent();
   void follow(const Game& game, const Entity& entity, Published& published);
+  bool fly(const Game& game, const Entity& entity, Published& published);
   void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
   void tell(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
   void publish_score(const Game& game, const rti::Stamp& stamp);
@@ -75,12 +88,13 @@ class Publisher {
   RegionSweep sweep_;
   std::vector<Published> published_;  ///< by entity
   std::vector<Registered> registered_;
+  std::vector<Flown> flights_;
   std::vector<rti::RegionBounds> moved_;
   std::vector<std::byte> encoded_;
   rti::ObjectHandle field_, score_;
   Goals goals_;
   std::uint64_t tick_ = 0;
-  bool keeps_order_ = false;
+  bool keeps_order_ = false, hands_in_flights_ = false;
   PublisherCounters counters_;
 };
 

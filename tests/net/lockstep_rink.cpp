@@ -13,6 +13,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   settings.federation = "rink";
   settings.filter = scheme;
   settings.filter_settings.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width};
+  settings.filter_settings.drag = scene.world.puck_drag;
   return settings;
 }
 
@@ -31,6 +32,7 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
   server_ = std::make_unique<Server>(fom_, scene, settings.server, [this] { return now; });
   server_link_ = std::make_unique<rti::FederateLink>(server_->ambassador(), server_endpoint_, server_endpoint_.connect("rti"));
   server_links_.add(*server_link_);
+  if (execution_.filter().traits().uses_flights) server_->hand_in_flights();
   settle();
   for (std::uint32_t k = 0; k < settings.clients; ++k) add_client("bat-" + std::to_string(k));
 }
