@@ -10,6 +10,12 @@ namespace rink::loadgen {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+Json or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
+
+}  // namespace
+
 void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters& counters) {
   for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k], messages += node.messages_sent()[k];
   bytes += counters.bytes_sent, writes += counters.writes, segments += counters.segments_sent;
@@ -17,6 +23,14 @@ void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters
   const peer::PeerCounters& played = node.peer().counters();
   events.push_back(played.own_events + played.ghost_events);
   received.push_back(counters.bytes_received);
+}
+
+void TrafficTotals::add(const game::PeerLoad& load) {
+  for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += load.bytes[k], messages += load.messages[k];
+  bytes += load.bytes_sent, writes += load.writes, segments += load.segments;
+  sent.push_back(load.bytes_sent);
+  received.push_back(load.bytes_received);
+  events.push_back(load.events);
 }
 
 TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
@@ -43,7 +57,7 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
           {"physics_us_per_tick", nullptr},
           {"filter_us_per_tick", nullptr},
           {"send_us_per_tick", nullptr},
-          {"server_rss_bytes", nullptr},
+          {"server_rss_bytes", or_null(totals.busiest_rss)},
           {"measured_s", totals.measured_s},
           {"valid", totals.windows > 0},
           {"why_invalid", totals.windows > 0 ? "" : "no window was measured"},
@@ -67,9 +81,9 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
           {"lost_federates", 0},
           {"dropped_connections", 0},
           {"total_bytes_sent", totals.whole.bytes},
-          {"total_bytes_received", totals.whole.bytes},
-          {"kernel_bytes_sent", nullptr},
-          {"kernel_bytes_received", nullptr}};
+          {"total_bytes_received", totals.whole_received},
+          {"kernel_bytes_sent", or_null(totals.kernel_sent)},
+          {"kernel_bytes_received", or_null(totals.kernel_received)}};
   for (std::size_t k = 0; k < game::traffic_count; ++k) report[std::string(game::traffic_names[k]) + "_bytes"] = measured.by_subject[k];
   return report;
 }
@@ -89,12 +103,12 @@ Json players_report(const Cell& cell, const PeerTotals& totals, const Measuremen
           {"send_lateness_ms", measured.send_lateness.to_json()},
           {"federates_lost", 0},
           {"bytes_received_by_bot", totals.measured.received},
-          {"total_bytes_received", totals.whole.bytes},
+          {"total_bytes_received", totals.whole_received},
           {"total_bytes_sent", totals.whole.bytes},
-          {"kernel_bytes_received", nullptr},
-          {"kernel_bytes_sent", nullptr},
-          {"valid", true},
-          {"why_invalid", ""}};
+          {"kernel_bytes_received", or_null(totals.kernel_received)},
+          {"kernel_bytes_sent", or_null(totals.kernel_sent)},
+          {"valid", totals.trouble.empty()},
+          {"why_invalid", totals.trouble}};
 }
 
 }  // namespace rink::loadgen

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "game/net/peer/peer_evidence.h"
 #include "game/net/peer/peer_node.h"
 #include "loadgen/experiment.h"
 #include "loadgen/probe.h"
@@ -22,6 +24,7 @@ struct TrafficTotals {
 
   /// The next peer's.
   void add(const game::PeerNode& node, const rti::TransportCounters& counters);
+  void add(const game::PeerLoad& load);
 };
 TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b);
 
@@ -31,6 +34,9 @@ struct PeerTotals {
   std::uint64_t windows = 0, entities = 0, keys_unanswered = 0;
   std::uint64_t known = 0, on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
   peer::PeerCounters counters;  ///< of all peers, from start to end
+  std::uint64_t whole_received = 0;                                        ///< bytes; and what the kernel counted, if there is one:
+  std::optional<std::uint64_t> kernel_sent, kernel_received, busiest_rss;  ///< bytes
+  std::string trouble;                                                     ///< why the players' part of the run does not count
   std::string state_hash;
 };
 

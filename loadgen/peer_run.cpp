@@ -8,22 +8,19 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "game/control/key_log.h"
+#include "game/net/peer/seating.h"
 #include "game/net/view.h"
 #include "loadgen/game_plan.h"
-#include "loadgen/peer_report.h"
+#include "loadgen/peer_judgement.h"
 #include "loadgen/peer_station.h"
-#include "loadgen/truth/truth.h"
 #include "loadgen/virtual_parts.h"
 #include "rti/transport/virtual_network.h"
 
 namespace rink::loadgen {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A station at its end of the network, with a connection to each other one. Who connects says its number first.
 class NetworkedStation : private rti::TransportListener {
@@ -102,12 +99,11 @@ class PeerRun {
   PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
 
   void run();
-  PeerTotals totals() const;
-  void write_evidence(const std::string& server_file, const std::string& bots_file) const;
-  const Measurements& measurements() const { return measurements_; }
-  const rti::NetworkCounters& network() const { return model_.counters(); }
+  /// After that.
+  void judge(RunRecord& record) const;
 
  private:
+  PeerTotals totals() const;
   double played_s() const { return experiment_.warm_up_s + experiment_.duration_s; }
   std::uint64_t last_window() const { return static_cast<std::uint64_t>(std::floor(played_s() * cell_.parameters.tick_rate_hz + 1e-9)); }
   void advance_until(std::int64_t until_ns);
@@ -142,8 +138,8 @@ class PeerRun {
   bool has_started_ = false;
 };
 
-game::NodeSettings node_settings(const Experiment& experiment, const Cell& cell, const physics::Field& field, const std::vector<std::uint32_t>& bats) {
-  game::NodeSettings settings;
+game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell, const physics::Field& field, const std::vector<std::uint32_t>& bats) {
+  game::InterestSettings settings;
   settings.scheme = cell.scheme, settings.policy = cell.policy, settings.cell_size = cell.parameters.cell_size;
   settings.half_side = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
   settings.margin = cell.parameters.view_margin;
@@ -161,10 +157,10 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
       model_(network_conditions(experiment, cell)),
       network_(model_),
       keys_(keys) {
-  const game::NodeSettings node = node_settings(experiment, cell, scene.world.field, seats_.bats);
+  const game::InterestSettings interest = interest_settings(experiment, cell, scene.world.field, seats_.bats);
   measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
   for (peer::PeerNumber number = 0; number < cell.clients; ++number) {
-    PeerStation& station = stations_.emplace_back(game_, node, seats_.division, number, clock_, measurements_);
+    PeerStation& station = stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
     ends_.emplace_back(network_, station, number, cell.clients);
   }
   node_of_player_.resize(game_.start().player_count(), cell.clients);
@@ -272,9 +268,9 @@ void PeerRun::note_decisions(double instant_s) {
     const peer::PeerNumber node = node_of_player_[player];
     const std::size_t first = evidence_.in_scope.size();
     for (const PeerStation& station : stations_) {
-      const std::vector<std::uint32_t>& scope = station.node().interest().scope_of(node);
+      const std::vector<std::uint32_t>& scope = station.node().interest().sender().scope_of(node);
       for (const std::uint32_t body : scope)
-        if (station.node().owns(body)) evidence_.in_scope.push_back(body);
+        if (station.node().interest().owns(body)) evidence_.in_scope.push_back(body);
     }
     std::sort(evidence_.in_scope.begin() + static_cast<std::ptrdiff_t>(first), evidence_.in_scope.end());
     evidence_.decisions.push_back({instant_s, player, first, evidence_.in_scope.size()});
@@ -298,6 +294,7 @@ PeerTotals PeerRun::totals() const {
   totals.entities = game_.start().entities().size();
   totals.state_hash = state_hash();
   totals.whole = traffic();
+  totals.whole_received = totals.whole.bytes;
   for (const PeerStation& station : stations_) {
     totals.counters += station.node().peer().counters();
     totals.keys_unanswered += station.probe().unanswered();
@@ -306,33 +303,13 @@ PeerTotals PeerRun::totals() const {
   return totals;
 }
 
-void PeerRun::write_evidence(const std::string& server_file, const std::string& bots_file) const {
-  game::ServerEvidence server = evidence_;
-  server.choice = choice_of(experiment_, cell_);
-  server.scheme = cell_.scheme, server.policy = cell_.policy;
-  server.clients = cell_.clients;
-  server.rate_hz = cell_.parameters.tick_rate_hz;
-  server.from_s = experiment_.warm_up_s, server.until_s = played_s();
-  server.end_s = static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz;
-  server.state_hash = std::stoull(state_hash(), nullptr, 16);
-  for (const game::Entity& entity : game_.start().entities()) server.objects.push_back({entity.id.index, entity.id.index});
-  game::write_evidence(server_file, server);
-
-  BotsEvidence bots;
-  bots.clients = cell_.clients;
-  bots.from_s = server.from_s, bots.until_s = server.until_s;
-  for (const std::uint32_t player : players_) {
-    const StationEvidence& own = *stations_[node_of_player_[player]].evidence();
-    for (BotsEvidence::Sample sample : own.samples) {
-      sample.bot = static_cast<std::uint32_t>(bots.bots.size());
-      sample.first += bots.beliefs.size(), sample.last += bots.beliefs.size();
-      bots.samples.push_back(sample);
-    }
-    bots.beliefs.insert(bots.beliefs.end(), own.beliefs.begin(), own.beliefs.end());
-    bots.bots.push_back(own.bot);
-  }
-  std::stable_sort(bots.samples.begin(), bots.samples.end(), [](const auto& a, const auto& b) { return a.displayed_s < b.displayed_s; });
-  loadgen::write_evidence(bots_file, bots);
+void PeerRun::judge(RunRecord& record) const {
+  const PeerTotals sums = totals();
+  game::ServerEvidence server = evidence_of(experiment_, cell_, game_.start(), evidence_.keys, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz, sums.state_hash);
+  server.decisions = evidence_.decisions, server.in_scope = evidence_.in_scope;
+  BotsEvidence bots = bots_evidence_of(server);
+  for (const std::uint32_t player : players_) add_player(bots, stations_[node_of_player_[player]].evidence());
+  judge_peers(settings_, experiment_, record, sums, measurements_, server, bots);
 }
 
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
@@ -343,15 +320,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   } catch (const peer::ProtocolError& error) {
     throw Failure{error.what()};
   }
-  const PeerTotals totals = run.totals();
-  const Json peers = peers_report(cell, totals), bots = players_report(cell, totals, run.measurements());
-  const std::string name = name_of(cell);
-  const std::string server_evidence = settings.directory / (name + ".server.jsonl"), bots_evidence = settings.directory / (name + ".bots.jsonl");
-  if (settings.wants_truth) run.write_evidence(server_evidence, bots_evidence);
-  write_json(settings.directory / (name + ".peers.json"), peers);
-  write_json(settings.directory / (name + ".bots.json"), bots);
-  judge(record, peers, bots);
-  if (settings.wants_truth) add_truth(record, experiment, server_evidence, bots_evidence);
+  run.judge(record);
 }
 
 }  // namespace

@@ -5,14 +5,11 @@
 #include <deque>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "game/net/evidence.h"
 #include "game/net/peer/frames.h"
 #include "game/net/peer/peer_node.h"
-#include "game/net/sampling.h"
-#include "loadgen/bots_evidence.h"
+#include "game/net/peer/player_witness.h"
 #include "loadgen/probe.h"
 
 namespace rink::loadgen {
@@ -26,17 +23,10 @@ struct RunClock {
   double simulated_s() const { return now_s - start_s; }
 };
 
-/// What a watched peer says of its own player.
-struct StationEvidence {
-  BotsEvidence::Bot bot;
-  std::vector<BotsEvidence::Sample> samples;  ///< `bot` in them is not set; `first` and `last` are in `beliefs`
-  std::vector<BotsEvidence::Belief> beliefs;
-};
-
 class PeerStation {
  public:
   /// `clock` must outlive the station, as must `measurements`, which may be shared.
-  PeerStation(const game::SharedGame& game, const game::NodeSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock, Measurements& measurements);
+  PeerStation(const game::SharedGame& game, const game::InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock, Measurements& measurements);
 
   /// Keeps evidence of what the player was told and believes.
   void watch();
@@ -49,7 +39,7 @@ class PeerStation {
   /// What is to be sent to `to`; the caller takes it.
   std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
   /// Takes a sample of what the player believes now.
-  void sample();
+  void sample() { witness_->sample(clock_.simulated_s()); }
 
   game::PeerNode& node() { return node_; }
   const game::PeerNode& node() const { return node_; }
@@ -57,11 +47,11 @@ class PeerStation {
   /// Measured windows of which all was known here, and those of them that were before the next one's end.
   std::uint64_t windows_known() const { return known_; }
   std::uint64_t windows_on_time() const { return on_time_; }
-  const std::optional<StationEvidence>& evidence() const { return evidence_; }
+  /// Of a watched one.
+  const game::PlayerEvidence& evidence() const { return witness_->evidence(); }
 
  private:
   void note_commit();
-  void note_scope();
 
   const RunClock& clock_;
   Measurements& measurements_;
@@ -70,12 +60,8 @@ class PeerStation {
   std::vector<std::vector<std::uint8_t>> outboxes_;   ///< likewise
   Probe probe_;
   game::PeerNode node_;
-  std::optional<StationEvidence> evidence_;
+  std::optional<game::PlayerWitness> witness_;
   std::uint64_t known_ = 0, on_time_ = 0;
-  double matched_s_ = -1.0;                           ///< the end of the last window of which all is known here
-  std::vector<std::uint32_t> scope_, listed_;
-  std::vector<physics::Vector2> matched_;             ///< by body in scope then
-  std::vector<std::pair<double, game::PlayerPicture::Heard>> received_;
 };
 
 }  // namespace rink::loadgen

@@ -16,9 +16,10 @@ void hear(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
 
 /// What `make(to)` makes goes to everybody else, and what they made is heard.
 template <class Make>
-void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make) {
+void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make, const std::function<void()>& meanwhile) {
   for (PeerNumber to = 0; to < peer_count; ++to)
     if (to != peer.number()) mail.send(to, written(make(to)));
+  if (meanwhile) meanwhile();
   for (PeerNumber from = 0; from < peer_count; ++from) {
     if (from == peer.number()) continue;
     hear<decltype(make(from))>(peer, from, mail.receive(from));
@@ -51,7 +52,8 @@ void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
 }
 
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
-  play_steps(peer, next, [&](auto&& make) { exchange_with_all(peer, peer_count, mail, make); }, [&] { agree(peer, peer_count, mail); }, [] {});
+  const auto exchange = [&](auto&& make, const std::function<void()>& meanwhile) { exchange_with_all(peer, peer_count, mail, make, meanwhile); };
+  play_steps(peer, next, exchange, [&] { agree(peer, peer_count, mail); }, {});
 }
 
 Arrivals own_bodies(const Peer& peer) {

@@ -1,6 +1,7 @@
 // One peer's side of a simulation over anything that carries bytes.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -73,21 +74,36 @@ class ProtocolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The steps of a window: `exchange(make)` lets everybody hear what everybody makes for each other, `agree` everybody's verdict, `when_final` is called before the
-/// arrivals are made, and may say where the `next` window ends.
-template <class Exchange, class Agree, class WhenFinal>
-void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agree, WhenFinal&& when_final) {
+/// What a message of the protocol is about, for who counts them.
+enum class Subject : std::uint8_t { claims, verdict, arrivals };
+
+/// Called in a window, where they are not empty: after its first run, which may yet be repeated or undone; when all have accepted; and when the others have been sent what they need for
+/// the next window, before it is committed. `when_sending`: what is sent from now on is about that.
+struct WindowHooks {
+  std::function<void()> when_played{}, when_final{}, when_told{};
+  std::function<void(Subject)> when_sending{};
+};
+
+/// The steps of a window: `exchange(make, meanwhile)` lets everybody hear what everybody makes for each other, and calls `meanwhile`, if it is not empty, when all is sent; `agree`
+/// everybody's verdict. `hooks.when_final` may say where the `next` window ends.
+template <class Exchange, class Agree>
+void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agree, const WindowHooks& hooks) {
+  const auto sending = [&](Subject about) { hooks.when_sending ? hooks.when_sending(about) : void(); };
   peer.play();
+  if (hooks.when_played) hooks.when_played();
   for (;;) {
-    exchange([&](PeerNumber to) { return peer.claims_for(to); });
+    sending(Subject::claims);
+    exchange([&](PeerNumber to) { return peer.claims_for(to); }, nullptr);
     peer.judge();
+    sending(Subject::verdict);
     agree();
+    sending(Subject::arrivals);
     if (peer.conclude() == Outcome::final) break;
-    exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; });
+    exchange([&](PeerNumber to) { return peer.repeats(to) ? peer.arrivals_for_repeat(to) : Arrivals{}; }, nullptr);
     if (peer.repeats(peer.number())) peer.replay();
   }
-  when_final();
-  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); });
+  if (hooks.when_final) hooks.when_final();
+  exchange([&](PeerNumber to) { return peer.arrivals_for(to, next); }, hooks.when_told);
   peer.commit(next);
 }
 

@@ -75,9 +75,10 @@ template FaceOffWord Session::heard<FaceOffWord>(PeerNumber from);
 
 /// What `make(to)` makes goes to all members, and what they made is heard.
 template <class Make>
-void Session::exchange(Make&& make) {
+void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
   for (const PeerNumber to : now_.members)
     if (to != settings_.number) mail_.send(to, written(make(to)));
+  if (meanwhile) meanwhile();
   for (const PeerNumber from : now_.members)
     if (from != settings_.number) peer_->hear(from, heard<decltype(make(from))>(from));
   if (!peer_->accusation().empty()) give_up(peer_->accused(), peer_->accusation());
@@ -109,7 +110,7 @@ void Session::play_stretch() {
   if (settings_.is_mirrored) announce();
   State next = now_;
   double next_end = 0.0;
-  const auto when_final = [&] {
+  const auto enter_next = [&] {
     next = after_stretch();
     next_end = stretch_end(next);
     if (next.zones == now_.zones) return;
@@ -119,7 +120,11 @@ void Session::play_stretch() {
   };
   // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way, unless there are goals to tell of.
   const auto agree_all = [&] { settings_.is_mirrored || settings_.goals ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
-  play_steps(*peer_, next_end, [&](auto&& make) { exchange(make); }, agree_all, when_final);
+  const auto exchange_all = [&](auto&& make, const std::function<void()>& meanwhile) { exchange(make, meanwhile); };
+  const bool is_cut = peer_->end() < settings_.end_of(now_.window + 1);  // then the window goes on after it
+  WindowHooks hooks = is_cut ? WindowHooks{} : settings_.hooks;
+  hooks.when_final = enter_next;
+  play_steps(*peer_, next_end, exchange_all, agree_all, hooks);
   if (settings_.goals) face_off(next);
   if (settings_.is_mirrored) {
     PartChange change = peer_->change(false);

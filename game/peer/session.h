@@ -43,6 +43,8 @@ struct SessionSettings {
   std::vector<Player> players{};            ///< of those who begin
   std::uint32_t bat_count = 0;              ///< that can be played
   std::function<std::vector<Seat>(const Player&)> seats_of{};
+  bool is_closed = false;                   ///< nobody is let in while they play
+  WindowHooks hooks{};                      ///< for what goes on beside the windows; its `when_final` is the session's own
 };
 
 struct SessionCounters {
@@ -99,7 +101,7 @@ class Session {
 
   // session.cpp
   template <class Make>
-  void exchange(Make&& make);
+  void exchange(Make&& make, const std::function<void()>& meanwhile = {});
   template <class Message>
   Message heard(PeerNumber from);
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;

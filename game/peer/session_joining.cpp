@@ -48,6 +48,7 @@ void Session::give_zones(State& next) const {
 
 /// Why a newcomer cannot be a candidate at the step that leads to `next`.
 std::optional<std::string> Session::objection(const State& next, const Newcomer& newcomer) const {
+  if (settings_.is_closed) return "its players look beyond what their peers have, and who is to be told of what was settled at the start: nobody is let in while they play";
   if (next.window + 3 > settings_.window_count || next.scoring.is_over) return "the game is about to end";
   if (next.members.size() + next.candidates.size() >= members_max) return "there are " + std::to_string(members_max) + " peers already";
   if (next.next_number >= numbers_max) return "this session has let in " + std::to_string(numbers_max) + " peers, and gives no more numbers";

@@ -10,9 +10,6 @@
 
 namespace rink::peer {
 
-/// What a message of the protocol is about, for who counts them.
-enum class Subject : std::uint8_t { claims, verdict, arrivals };
-
 /// play_window without waiting. Messages come whole and in order from each peer, from one that is ahead also those of the next window.
 class WindowPlay {
  public:

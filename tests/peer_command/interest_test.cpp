@@ -44,16 +44,18 @@ TEST(Gaze, IsRefusedIfNoPlayerCouldHaveIt) {
 TEST(PlayerPicture, SurvivesWhateverItIsTold) {
   std::mt19937_64 random(5);
   for (const bool has_trajectories : {false, true}) {
-    PlayerPicture picture(50, has_trajectories, {}, std::vector<physics::BodyKind>(50, physics::BodyKind::puck));
+    PlayerPicture picture(has_trajectories, {}, std::vector<physics::BodyKind>(50, physics::BodyKind::puck));
     for (int k = 0; k < 20'000; ++k) {
       std::vector<std::byte> bytes(random() % 24);
       for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() & 0x7f);
       picture.hear(1, bytes, 20.0);
       picture.forget_heard();
     }
-    for (std::uint32_t body = 0; body < picture.body_count(); ++body) EXPECT_TRUE(!picture.belief(body).is_there || picture.belief(body).source == 1);
+    for (const auto& [body, belief] : picture.beliefs()) EXPECT_TRUE(body < 50 && belief.is_there && belief.source == 1);
     picture.forget(1);
-    for (std::uint32_t body = 0; body < picture.body_count(); ++body) EXPECT_FALSE(picture.belief(body).is_there);
+    for (const auto& [body, belief] : picture.beliefs()) EXPECT_FALSE(belief.is_there);
+    picture.drop_forgotten();
+    EXPECT_TRUE(picture.beliefs().empty());
   }
 }
 

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t peer_protocol_version = 6;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.
-enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell, sign };
-inline constexpr FrameKind frame_kind_max = FrameKind::sign;
+enum class FrameKind : std::uint8_t { hello, welcome, elsewhere, refusal, greeting, mail, farewell, sign, aside };
+inline constexpr FrameKind frame_kind_max = FrameKind::aside;
 
 /// Where a peer can be reached by all others.
 struct Place {
@@ -42,13 +42,24 @@ struct Luggage {
   std::uint64_t keys = 0;       ///< of all keys, scripted and recorded
 };
 
+/// How all decide what players are told that look beyond what their peers have (SharedInterest); with no scheme nobody is told anything.
+struct InterestTerms {
+  std::string scheme, policy = "on-event";
+  double cell_size = 0.0;  ///< m; 0 lets the scheme choose
+  bool is_wanted() const { return !scheme.empty(); }
+  bool fit() const { return cell_size >= 0.0 && cell_size <= 1e6; }
+};
+
 /// What the first peer decides for all.
 struct Terms {
   std::uint32_t peer_count = 2;
   double until = 0.0, window = 0.0;  ///< s
   std::uint32_t balance_windows = 0; ///< after so many windows zones shift toward equal load; 0: they stay
   bool is_mirrored = true;           ///< whether each peer's part is kept by another, too
-  bool fit() const { return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9; }
+  bool is_seated = false;            ///< each peer has the player in its zone, whose keys all know, and zones are cut around these (seated_division)
+  bool starts_together = false;      ///< at an instant that the first peer says (start_together)
+  InterestTerms interest{};
+  bool fit() const { return peer_count >= 1 && peer_count <= peers_max && until > 0.0 && until <= 1e9 && window > 0.0 && until / window <= 1e9 && interest.fit(); }
 };
 
 /// A newcomer's first words, to any peer. What follows `version` is of that version.
@@ -133,8 +144,10 @@ bool exchange(Stream& stream, Hello& hello) {
 template <class Stream>
 bool exchange(Stream& stream, Welcome& welcome) {
   Terms& terms = welcome.terms;
-  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.sponsor, welcome.number, welcome.first_bat) &&
-                         stream.truth(terms.is_mirrored) && stream.truth(welcome.is_playing);
+  InterestTerms& interest = terms.interest;
+  const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.sponsor, welcome.number, welcome.first_bat, interest.cell_size) &&
+                         stream.truth(terms.is_mirrored) && stream.truth(terms.is_seated) && stream.truth(terms.starts_together) && stream.truth(welcome.is_playing) &&
+                         exchange(stream, interest.scheme) && exchange(stream, interest.policy);
   if (!is_headed || !stream.size(welcome.others)) return false;
   bool has_sponsor = false;
   std::uint32_t least = 0;

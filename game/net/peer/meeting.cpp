@@ -40,10 +40,12 @@ void Meeting::show_signs() {
 }
 
 void Meeting::attend(double wait_s) {
+  if (before_wait) wait_s = std::clamp(before_wait() - now_s_(), 0.0, wait_s);
   if (may_lose_) show_signs();
   push_all();
   const bool is_sending = std::any_of(links_.begin(), links_.end(), [](const auto& entry) { return !entry.second.outbox.empty(); });
-  sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? 0.001 : wait_s))), *this);
+  sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * (is_sending ? std::min(0.001, wait_s) : wait_s))), *this);
+  pass_asides_on();
   std::vector<rti::ConnectionId> idle;
   for (const auto& [connection, link] : links_) {
     const double patience_s = link.role == Role::stranger && link.early ? settings_.patience_s : stranger_patience_s;
@@ -76,6 +78,16 @@ void Meeting::abandon() {
   for (auto& [connection, link] : links_)
     if (!link.is_closed) sockets_.get().close(connection);
   links_.clear();
+}
+
+void Meeting::pass_asides_on() {
+  while (hear_aside && !asides_.empty()) {
+    const auto [from, bytes] = std::move(asides_.front());
+    asides_.pop_front();
+    Link& link = link_of(from);
+    if (link.is_parted || hear_aside(from, bytes)) continue;
+    lose(link, ExitStatus::failed, name_of(link) + " said aside what no peer says");
+  }
 }
 
 void Meeting::push_all() {
@@ -189,6 +201,10 @@ bool Meeting::hear_peer(rti::ConnectionId connection, Link& link, const Frame& f
     link.inbox.push_back(frame.content);
     return !link.is_done;
   }
+  if (frame.kind == FrameKind::aside) {
+    asides_.emplace_back(link.number, frame.content);
+    return !link.is_done;
+  }
   if (frame.kind == FrameKind::sign) return frame.content.empty();
   const auto farewell = frame.kind == FrameKind::farewell ? message_from<Farewell>(frame.content) : std::nullopt;
   if (!farewell) return false;
@@ -204,6 +220,10 @@ bool Meeting::hear_peer(rti::ConnectionId connection, Link& link, const Frame& f
 void Meeting::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
   if (to < peers_.size() && peers_[to]) return say(*peers_[to], FrameKind::mail, bytes);
   if (expected_.contains(to)) waiting_mail_[to].push_back(std::move(bytes));
+}
+
+void Meeting::say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
+  if (to < peers_.size() && peers_[to]) say(*peers_[to], FrameKind::aside, bytes);
 }
 
 std::vector<std::uint8_t> Meeting::receive(peer::PeerNumber from) {

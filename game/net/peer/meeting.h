@@ -8,10 +8,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
+#include "game/net/peer/asides.h"
 #include "game/net/peer/frames.h"
 #include "game/net/peer/greetings.h"
 #include "game/peer/protocol.h"
@@ -41,7 +43,7 @@ struct MeetingSettings {
 /// Calls that wait throw Parting: when another peer is gone, interrupted or silent, when we are refused, or when a user interrupts us. From `begin` on, where parts are mirrored,
 /// it is peer::PeerGone instead of the first three (peer::SentAway of a newcomer who may ask again), and of a user's interrupt only what takes too long. A stranger who says what a peer
 /// would not loses the connection, and nothing else happens.
-class Meeting final : public peer::Mail, private rti::TransportListener {
+class Meeting final : public peer::Mail, public Asides, private rti::TransportListener {
  public:
   Meeting(rti::SocketTransport& sockets, const MeetingSettings& settings, double (*now_s)());
 
@@ -70,6 +72,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   /// Strangers who were sent away, and the bytes of all frames to peers.
   std::uint64_t dismissed() const { return dismissed_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }
+  rti::TransportCounters transported() const { return sockets_.totals(); }
 
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
@@ -81,6 +84,13 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   bool reaches(peer::PeerNumber candidate) override;
   bool has_given_up(peer::PeerNumber candidate) override;
   void admit(peer::PeerNumber candidate, bool is_in) override;
+  void say_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
+
+  /// An aside that was heard too early.
+  void hear_again(peer::PeerNumber from, std::vector<std::uint8_t> bytes) { asides_.emplace_back(from, std::move(bytes)); }
+
+  /// If not empty, called before each wait, also for mail: does what is due, and says when it wants to be called again [s of the clock].
+  std::function<double()> before_wait;
 
  private:
   /// A caller has asked to be let in while we play. Who is dismissed is heard no more, and closes the connection itself or has it closed.
@@ -126,6 +136,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   void note(ExitStatus status, const std::string& what);
   void lose(Link& link, ExitStatus status, const std::string& what);
   void show_signs();
+  void pass_asides_on();
   bool are_all_here() const;
   bool may_leave_in_order() const;
   Link* link_at(peer::PeerNumber number);
@@ -150,6 +161,7 @@ class Meeting final : public peer::Mail, private rti::TransportListener {
   std::vector<std::optional<rti::ConnectionId>> peers_;  ///< by number
   std::vector<Guest> guests_;                            ///< by number: whom the first peer has let in, or who has said that it was
   std::uint32_t guest_count_ = 1, bats_taken_ = 0;       ///< of a first peer
+  std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> asides_;  ///< that were not heard yet
   std::optional<Parting> trouble_;
   std::uint64_t dismissed_ = 0, bytes_sent_ = 0;
 };

@@ -26,6 +26,8 @@
 #include "game/net/peer/meeting.h"
 #include "game/net/peer/rank_mail.h"
 #include "game/net/peer/shared_game.h"
+#include "game/net/peer/viewing_options.h"
+#include "game/net/scene_choice.h"
 
 namespace {
 
@@ -33,13 +35,14 @@ using namespace rink;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string scene, keys, listen, join, record, pace = "free", transport = "tcp";
+  std::string scene, keys, listen, join, record, report, pace = "free", transport = "tcp";
   std::vector<std::string> players{"chaser"};
   std::uint64_t seed = 0;
-  std::uint32_t bats = 0, bots = 0;
+  std::uint32_t bats = 0, bat_count = 0, puck_count = 0, bots = 0;
   bool says_peers = false;  ///< --peers was given
   double patience_s = 30.0;
   game::Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02, .balance_windows = 25};
+  game::ViewingOptions viewing;
 };
 
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
@@ -58,9 +61,7 @@ std::string player_names() {
 }
 
 game::SharedGame game_of(const Options& options) {
-  game::Scene scene = game::load_scene(options.scene);
-  if (options.bats > 0) scene = game::scaled_to_bats(std::move(scene), options.bats);
-  if (options.seed > 0) scene = game::with_seed(std::move(scene), options.seed);
+  const game::Scene scene = game::chosen_scene({.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed});
   std::vector<game::InputEvent> recorded;
   if (!options.keys.empty()) {
     game::KeyLog log = game::read_key_log(std::filesystem::path(options.keys));
@@ -99,6 +100,7 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"strangers_dismissed", meeting.dismissed()},
           {"wall_s", playing_s},
           {"cpu_s", processor_s()},
+          {"rss_bytes", game::resident_bytes()},
           {"lost", part.lost},
           {"recoveries", part.counters.recoveries},
           {"shifts", part.counters.shifts},
@@ -131,9 +133,9 @@ class RecordFile {
 };
 
 /// Until all who begin are there, or those who play already have told us of each other.
-void meet(const Options& options, game::Meeting& meeting) {
+void meet(const Options& options, const game::Terms& terms, game::Meeting& meeting) {
   if (options.join.empty()) {
-    meeting.found(options.terms);
+    meeting.found(terms);
   } else {
     const auto [address, port] = game::address_and_port("--join", options.join);
     meeting.join({address, port});
@@ -144,12 +146,13 @@ void meet(const Options& options, game::Meeting& meeting) {
   if (meeting.members().empty()) meeting.gather();
   std::printf("playing\n");
   std::fflush(stdout);
-  meeting.begin();
+  if (meeting.terms().is_seated && options.bots > 0) throw game::Parting(game::ExitStatus::not_admitted, "--bots: the peers there are --seated, each with the player in its zone: expected no --bots");
 }
 
-/// When the clock shows that simulated time, from the first time that is asked for on.
+/// When the clock shows that simulated time, if need be from the first time that is asked for on.
 class Pace {
  public:
+  explicit Pace(std::optional<double> offset_s) : offset_s_(offset_s) {}
   double clock_s(double time) {
     if (!offset_s_) offset_s_ = now_s() - time;
     return *offset_s_ + time;
@@ -159,23 +162,30 @@ class Pace {
   std::optional<double> offset_s_;
 };
 
-game::PlayedPart play(const Options& options, const game::SharedGame& shared, game::Meeting& meeting) {
-  Pace pace;
+game::PlayedPart play(const Options& options, const game::SharedGame& shared, game::Meeting& meeting, const game::Viewing& viewing, double start_s) {
+  // Whoever measures how old a window is when it is known plays it when its end has come, as a server its ticks.
+  Pace pace(viewing.witness ? std::optional(start_s + meeting.terms().window) : std::nullopt);
   game::Manner manner{.players = options.players,
                       .before_window = {},
                       .wants_to_leave = [] { return game::is_interrupted != 0; },
                       .tell = [](const std::string& what) { spdlog::warn("{}", what); },
-                      .members = meeting.members()};
+                      .members = meeting.members(),
+                      .listener = viewing.viewer.get()};
   manner.before_window = [&](double time) {
     meeting.note_window();
     if (options.pace == "realtime") meeting.rest_until(pace.clock_s(time));
   };
-  return shared.play(meeting.terms(), meeting.guests(), meeting.number(), meeting, manner);
+  peer::Mail& mail = viewing.witness ? viewing.witness->mail() : meeting;
+  return shared.play(meeting.terms(), meeting.guests(), meeting.number(), mail, manner);
 }
 
 /// What a run leaves, of which what cannot be had again comes first should a file refuse.
-game::ExitStatus report(const Options& options, const game::SharedGame& shared, const game::Meeting& meeting, const game::PlayedPart& part, double playing_s) {
-  std::printf("%s\n", report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s).dump(2).c_str());
+game::ExitStatus report(const Options& options, const game::SharedGame& shared, const game::Meeting& meeting, const game::Viewing& viewing, const game::PlayedPart& part, double playing_s) {
+  Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
+  if (viewing.viewer) report["view"] = game::report_of(*viewing.viewer);
+  report["transport"] = game::report_of(meeting.transported());
+  if (!options.report.empty()) game::write_file(options.report, report.dump(2));
+  else std::printf("%s\n", report.dump(2).c_str());
   const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (!is_told) spdlog::error("the report could not be written to the standard output");
   if (!part.has_left) write_record(options, shared, part);
@@ -183,15 +193,19 @@ game::ExitStatus report(const Options& options, const game::SharedGame& shared, 
 }
 
 /// From the first word to the last; whoever is connected is told why it ends early. Throws peer::SentAway of a newcomer that may ask again.
-game::ExitStatus share(const Options& options, const game::SharedGame& shared, game::Meeting& meeting) {
+game::ExitStatus share(const Options& options, const game::Terms& terms, const game::SharedGame& shared, game::Meeting& meeting) {
   try {
-    meet(options, meeting);
-    const double start_s = now_s();
-    const game::PlayedPart part = play(options, shared, meeting);
+    meet(options, terms, meeting);
+    const game::Viewing viewing = game::make_viewing(shared, meeting, options.viewing, now_s);
+    const double start_s = meeting.terms().starts_together ? game::start_together(meeting, now_s) : now_s();
+    if (viewing.witness) viewing.witness->start_at(start_s);
+    meeting.begin();
+    const game::PlayedPart part = play(options, shared, meeting, viewing, start_s);
     const double playing_s = now_s() - start_s;
+    if (viewing.witness) game::write_evidence(options.viewing.evidence, viewing.witness->evidence());
     meeting.leave({});
     if (part.has_left) spdlog::warn("interrupted at {} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
-    return report(options, shared, meeting, part, playing_s);
+    return report(options, shared, meeting, viewing, part, playing_s);
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());
     meeting.leave({parting.status() == game::ExitStatus::interrupted ? game::FarewellKind::interrupted : game::FarewellKind::trouble, parting.what()});
@@ -230,8 +244,8 @@ void report_ranks(const Json& own, game::RankMail& mail) {
 game::ExitStatus share_among_ranks(Options options) {
   if (!options.join.empty() || !options.listen.empty() || options.says_peers)
     throw std::invalid_argument("--listen, --join, --peers: with --transport mpi the launcher says how many there are and brings them together (mpirun -np 4): expected none of these");
-  if (options.bots > 0 || !options.record.empty() || options.pace != "free")
-    throw std::invalid_argument("--bots, --record, --pace: ranks of --transport mpi only compute, as fast as they can: expected none of these");
+  if (options.bots > 0 || !options.record.empty() || options.pace != "free" || options.terms.is_seated || options.terms.interest.is_wanted())
+    throw std::invalid_argument("--bots, --record, --pace, --scheme, --seated: ranks of --transport mpi only compute, as fast as they can: expected none of these");
   const game::SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
@@ -266,12 +280,18 @@ game::ExitStatus share_among_ranks(Options options) {
 
 game::ExitStatus run(const Options& options) {
   const RecordFile record(options.record);
+  game::require_writable("--report", options.report);
+  game::require_writable("--evidence", options.viewing.evidence);
+  if (!options.viewing.evidence.empty() && (options.pace != "realtime" || options.transport == "mpi")) throw std::invalid_argument("--evidence: latencies are those of the clock: expected --pace realtime, and no mpi");
   if (options.transport == "mpi") return share_among_ranks(options);
   const game::SharedGame shared = game_of(options);
   if (options.join.empty()) shared.require_window(options.terms.window);
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
+  game::require_viewing(options.terms, shared, options.bots);
   if (options.bots > 0 && shared.has_keys()) throw std::invalid_argument("--bots: the scene or the key log has keys already, and nobody can play beside them");
+  game::Terms terms = options.terms;
+  terms.starts_together = !options.viewing.evidence.empty();
   game::Place place = game::listening_place(options.listen, options.join, options.transport == "tcp");
   rti::SocketTransport sockets(options.transport);
   place.port = sockets.listen(place.address, place.port);
@@ -286,7 +306,7 @@ game::ExitStatus run(const Options& options) {
     const game::Guest self{.place = place, .bat_count = options.bots, .puck_count = game::Crowd::pucks_wanted(shared.scene(), options.players), .token = number_that_nobody_guesses()};
     game::Meeting meeting(sockets, {.self = self, .bats = shared.bat_count(), .luggage = shared.luggage(), .session = number_that_nobody_guesses(), .patience_s = options.patience_s}, now_s);
     try {
-      return share(options, shared, meeting);
+      return share(options, terms, shared, meeting);
     } catch (const peer::SentAway& sent) {
       constexpr int tries_max = 10;
       spdlog::warn("{}; {}", sent.what(), tries < tries_max ? "asking again" : "that was the last try");
@@ -323,8 +343,11 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--pace", options.pace, "realtime: by the clock; free: as fast as they can")->check(CLI::IsMember({"realtime", "free"}))->capture_default_str();
   app.add_option("--record", options.record, "write everybody's keys and the final hash to this key log; rink replay plays it again, and so does rink simulate --keys");
+  app.add_option("--report", options.report, "file for what this peer did, as JSON (default: the standard output)");
   app.add_option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")->capture_default_str();
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
+  app.add_option("--bat-count", options.bat_count, "so many bats on the scene's own field; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
+  app.add_option("--puck-count", options.puck_count, "likewise pucks")->check(CLI::Range(0u, game::pucks_max))->capture_default_str();
   app.add_option("--listen", options.listen, "where others reach this peer; port 0 takes any free one (default of those who join a peer of this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT");
   CLI::Option* join = app.add_option("--join", options.join, "any peer that is there already; without this, become the first one")->type_name("HOST:PORT");
   app.add_option("--peers", options.terms.peer_count, "how many are waited for before the start, while more may come later; the first peer's to say")->check(CLI::Range(1u, game::peers_max))->excludes(join)->capture_default_str();
@@ -335,6 +358,7 @@ void add_options(CLI::App& app, Options& options) {
       ->excludes(join)
       ->capture_default_str();
   app.add_flag("!--unmirrored", options.terms.is_mirrored, "no peer keeps another's part: who is lost or interrupted ends all, and nobody joins later; the first peer's to say")->excludes(join);
+  game::add_viewing_options(app, options.viewing, options.terms, join);
   app.add_option("--transport", options.transport, "what carries the bytes: tcp; shm between processes of this machine, where a port is a name; or mpi between the ranks of an mpirun, which all are peers; the same for all")->check(CLI::IsMember({"tcp", "shm", "mpi"}))->capture_default_str();
   app.add_option("--patience", options.patience_s, "how long a peer whose word is due may be silent [s]")->check(game::number_from(0.1, game::seconds_max))->capture_default_str();
   app.footer("Example, in two terminals:\n  ./rink peer --scene arena --peers 2 --until 5 --listen 127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"

@@ -30,17 +30,17 @@ bool PlayerPicture::hear(peer::PeerNumber from, rti::Bytes message, double windo
   while (!reader.is_at_end()) {
     const std::size_t before = reader.left();
     ToldOf told;
-    if (!take(reader, has_trajectories_, told) || told.body >= beliefs_.size() || !apply(from, told, window / windows_per_s)) return false;
+    if (!take(reader, has_trajectories_, told) || told.body >= kinds_.size() || !apply(from, told, window / windows_per_s)) return false;
     heard_.push_back({told.body, static_cast<std::uint32_t>(before - reader.left())});
   }
   return true;
 }
 
 bool PlayerPicture::apply(peer::PeerNumber from, const ToldOf& told, double time) {
-  Belief& belief = beliefs_[told.body];
   if (told.form == ToldOf::Form::felt || told.form == ToldOf::Form::motion_and_felt) felt_ = std::max(felt_, told.felt);
-  if (told.form == ToldOf::Form::left && belief.source == from) belief.is_there = false;
+  if (told.form == ToldOf::Form::left && this->belief(told.body).source == from) forget_body(told.body);
   if (told.motion.empty()) return true;
+  Belief belief;
   rti::Reader reader(told.motion);
   if (has_trajectories_) {
     std::vector<std::byte> value;
@@ -52,18 +52,32 @@ bool PlayerPicture::apply(peer::PeerNumber from, const ToldOf& told, double time
   } else {
     Position position;
     if (!exchange(reader, position)) return false;
-    belief.motion = {};
     belief.motion.time = time;
     belief.motion.position = {static_cast<double>(position.x), static_cast<double>(position.y)};
   }
   belief.source = from;
   belief.is_there = true;
+  beliefs_[told.body] = belief;
   return true;
 }
 
 void PlayerPicture::forget(peer::PeerNumber source) {
-  for (Belief& belief : beliefs_)
+  for (auto& [body, belief] : beliefs_)
     if (belief.source == source) belief.is_there = false;
+}
+
+void PlayerPicture::forget_body(std::uint32_t body) {
+  if (const auto found = beliefs_.find(body); found != beliefs_.end()) found->second.is_there = false;
+}
+
+void PlayerPicture::drop_forgotten() {
+  std::erase_if(beliefs_, [](const auto& entry) { return !entry.second.is_there; });
+}
+
+const Belief& PlayerPicture::belief(std::uint32_t body) const {
+  static const Belief none;
+  const auto found = beliefs_.find(body);
+  return found == beliefs_.end() ? none : found->second;
 }
 
 }  // namespace rink::game

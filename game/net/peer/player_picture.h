@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "game/peer/division.h"
@@ -33,17 +35,21 @@ class PlayerPicture {
   struct Heard {
     std::uint32_t body = 0, bytes = 0;
   };
-  PlayerPicture(std::uint32_t body_count, bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds)
-      : beliefs_(body_count), has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
+  /// `kinds`: of all bodies, by number.
+  PlayerPicture(bool has_trajectories, const Drag& drag, std::vector<physics::BodyKind> kinds) : has_trajectories_(has_trajectories), drag_(drag), kinds_(std::move(kinds)) {}
 
   /// False for what is no whole update message; what could be read of it is applied.
   bool hear(peer::PeerNumber from, rti::Bytes message, double windows_per_s);
   /// All that came from `source` is forgotten: it was told that we look elsewhere.
   void forget(peer::PeerNumber source);
-  void forget_body(std::uint32_t body) { beliefs_[body].is_there = false; }
+  void forget_body(std::uint32_t body);
+  /// What is forgotten can be asked for until then, by who looks between two windows.
+  void drop_forgotten();
 
-  const Belief& belief(std::uint32_t body) const { return beliefs_[body]; }
-  std::uint32_t body_count() const { return static_cast<std::uint32_t>(beliefs_.size()); }
+  /// One that is not there, of bodies that nothing is known of.
+  const Belief& belief(std::uint32_t body) const;
+  /// By number; few of a large world, of which nothing else is kept. Those that are forgotten, and not dropped yet, are among them.
+  const std::map<std::uint32_t, Belief>& beliefs() const { return beliefs_; }
   /// Of the player's own bat, as its owner last told.
   std::uint32_t felt() const { return felt_; }
   /// What came since they were last forgotten.
@@ -53,7 +59,7 @@ class PlayerPicture {
  private:
   bool apply(peer::PeerNumber from, const ToldOf& told, double time);
 
-  std::vector<Belief> beliefs_;  ///< by body
+  std::map<std::uint32_t, Belief> beliefs_;
   bool has_trajectories_;
   Drag drag_;
   std::vector<physics::BodyKind> kinds_;

@@ -11,6 +11,7 @@
 #include "game/net/interrupt.h"
 #include "game/net/peer/hand_player.h"
 #include "game/net/peer/listening_place.h"
+#include "game/net/peer/viewing_options.h"
 
 namespace rink::game {
 
@@ -96,6 +97,8 @@ void PlayingPeer::share() {
   const bool is_late = !meeting_->members().empty();
   if (!is_late) meeting_->gather();
   const Terms& terms = meeting_->terms();
+  if (terms.is_seated) throw Parting(ExitStatus::not_admitted, "the peers there are seated, and their players' keys are known: nobody can play at a window");
+  const Viewing viewing = make_viewing(game_, *meeting_, {}, now_s_);
   const Guest& self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
   if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
@@ -115,6 +118,7 @@ void PlayingPeer::share() {
   manner.wants_to_leave = [this] { return hand_.wants_to_leave() || is_interrupted != 0; };
   manner.tell = [this](const std::string& what) { hand_.notice(what); };
   manner.onlooker = &player;
+  manner.listener = viewing.viewer.get();
   const PlayedPart part = game_.play(terms, meeting_->guests(), meeting_->number(), *meeting_, manner);
   meeting_->leave({});
   end(part);

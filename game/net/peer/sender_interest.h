@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "game/peer/peer.h"
@@ -35,17 +36,24 @@ std::optional<Gaze> gaze_from(rti::Bytes bytes);
 class SenderInterest {
  public:
   /// `scheme` and `policy` ("periodic" or "on-event") must be known (asserted).
-  SenderInterest(const std::string& scheme, double cell_size, const std::string& policy, const physics::Field& field, peer::PeerNumber peer_count, std::uint32_t body_count);
+  SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, peer::PeerNumber peer_count, std::uint32_t body_count);
+
+  /// What the schemes `always`, `team` and `owner` go by: of all bodies, and of each peer's player. Before anybody looks.
+  void set_roles(std::vector<im::Role> of_bodies, std::vector<im::Role> of_players);
 
   /// Side of the cells by which alone the scheme looks at regions [m]; 0 if it looks at them otherwise.
   double cell_size() const { return cell_size_; }
   /// Whether it matters where players look.
   bool is_selective() const { return is_selective_; }
+  /// Whether what is far from where a player looks may concern it, so that everybody must know that it looks.
+  bool reaches_everywhere() const { return reaches_everywhere_; }
   bool tells_trajectories() const { return tells_trajectories_; }
 
   void look(peer::PeerNumber player, const im::Region& region);
   /// The player does not look here any more, and has been told to forget.
   void look_away(peer::PeerNumber player);
+  /// What the player was told counts no more: it is told all anew.
+  void forget_told(peer::PeerNumber player) { sent_[player].clear(); }
 
   /// The bodies that are here now, own ones and ghosts; decides who sees which.
   void match(const peer::Peer& peer);
@@ -70,11 +78,12 @@ class SenderInterest {
 
   std::unique_ptr<im::Filter> filter_;
   double cell_size_;
-  bool is_selective_, tells_trajectories_;
+  bool is_selective_, reaches_everywhere_, remembers_, tells_trajectories_;  ///< `remembers`: decisions depend on earlier ones, so two owners may differ
+  std::vector<im::Role> body_roles_, player_roles_;        ///< by body, by peer; or none
   std::vector<std::vector<std::uint32_t>> scopes_, sent_;  ///< by peer, ascending: who sees what; what each was told of last and not told to forget
   std::vector<std::uint8_t> is_here_;                      ///< by body: in the filter
   std::vector<std::uint32_t> here_;
-  std::vector<Told> told_;                                 ///< by body, what all hear who hear of it
+  std::unordered_map<std::uint32_t, Told> told_;           ///< of bodies that are here, what all hear who hear of it
   std::uint64_t motions_sent_ = 0;
 };
 

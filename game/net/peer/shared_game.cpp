@@ -10,6 +10,7 @@
 #include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
+#include "game/net/peer/seating.h"
 
 namespace rink::game {
 
@@ -169,7 +170,8 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> lo
 
 PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, peer::PeerNumber number, peer::Mail& mail, const Manner& manner) const {
   peer::SessionSettings settings{.number = number, .peer_count = terms.peer_count, .halo = first_halo(terms.window), .is_mirrored = terms.is_mirrored, .end_of = {}};
-  const auto count = settings.window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window)));
+  constexpr double rounding = 1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
+  const auto count = settings.window_count = static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window - rounding)));
   // The last window ends at `until`, the one that is prepared then, and never played, one window later.
   settings.end_of = [terms, count](std::uint64_t k) { return k == count ? terms.until : k > count ? terms.until + terms.window : static_cast<double>(k) * terms.window; };
   settings.balance_windows = terms.balance_windows;
@@ -177,15 +179,23 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.goals = goal_rules(terms.window);
   settings.bat_count = has_keys() ? 0 : start_.player_count();
   settings.seats_of = [this](const peer::Player& player) { return seats(player); };
+  settings.is_closed = terms.interest.is_wanted() || terms.is_seated;
+  if (manner.listener != nullptr) {
+    settings.hooks.when_played = [&manner] { manner.listener->when_played(); };
+    settings.hooks.when_told = [&manner] { manner.listener->when_told(); };
+    settings.hooks.when_sending = [&manner](peer::Subject about) { manner.listener->when_sending(about); };
+  }
+  if (terms.is_seated && terms.peer_count > start_.player_count()) throw peer::ProtocolError("there are more peers than bats, and each is to have one in its zone");
   if (manner.members.empty()) settings.players = players(terms, guests);
   std::optional<peer::Session> made;
-  if (manner.members.empty()) made.emplace(start_.world(), cuts(terms.peer_count), std::move(settings), mail);
+  if (manner.members.empty()) made.emplace(start_.world(), terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count), std::move(settings), mail);
   else made.emplace(start_.world(), std::move(settings), mail, manner.members);
   peer::Session& session = *made;
   const Guest& self = guests[number];
   Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, session.peer().now(), terms.until);
   Membership membership(session, manner);
   if (!manner.members.empty() && manner.tell) manner.tell("peer " + std::to_string(number) + " is in from " + std::to_string(session.peer().now()) + " s");
+  if (manner.listener != nullptr) manner.listener->begin(session);
   while (!session.is_over()) {
     if (manner.before_window) manner.before_window(session.peer().now());
     if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
@@ -193,8 +203,10 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
     session.advance();
     if (manner.onlooker != nullptr) manner.onlooker->after_window(session);
     membership.tell();
+    if (manner.listener != nullptr) manner.listener->when_stepped();
     crowd.act(session);
   }
+  if (manner.listener != nullptr) manner.listener->end();
   PlayedPart part;
   part.has_left = session.has_left();
   part.was_last = part.has_left && session.members().size() == 1;

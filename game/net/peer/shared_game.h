@@ -42,6 +42,22 @@ class Onlooker {
   virtual void after_window(const peer::Session&) {}
 };
 
+/// Told of the windows of a session while they are played.
+class WindowListener {
+ public:
+  virtual ~WindowListener() = default;
+  /// Before the first window. The session's peer and division stay where they are, though they may be made anew there.
+  virtual void begin(const peer::Session& session) = 0;
+  /// See peer::WindowHooks.
+  virtual void when_played() {}
+  virtual void when_told() {}
+  virtual void when_sending(peer::Subject) {}
+  /// A window is committed; before it, peers may have been lost, and windows undone.
+  virtual void when_stepped() = 0;
+  /// After the last one: the session is asked no more.
+  virtual void end() {}
+};
+
 /// How a peer plays: with which bots, and what it does before it plays a window from the simulated time that it is given, such as wait for the clock.
 struct Manner {
   std::vector<std::string> players{"chaser"};  ///< kinds, as rink simulate's
@@ -50,6 +66,7 @@ struct Manner {
   std::function<void(const std::string&)> tell;  ///< the user, of losses and newcomers
   Onlooker* onlooker = nullptr;                  ///< or nobody
   std::vector<peer::PeerNumber> members{};       ///< of a newcomer while others play: whom it was told of
+  WindowListener* listener = nullptr;
 };
 
 /// The same for all who are given the same scene and keys.
@@ -63,6 +80,8 @@ class SharedGame {
   /// Whether all keys are known before the start; then nobody can play live.
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
+  /// That all know.
+  const std::vector<InputEvent>& keys() const { return keys_; }
   peer::Cuts cuts(peer::PeerNumber peer_count) const;
   /// Plays the part of peer `number` of `guests` to the end of `terms`; of those who come later `guests` need not tell. Throws peer::ProtocolError, peer::Halt (of a newcomer that is not in yet
   /// peer::SentAway: it may ask again), and what `mail` throws.

@@ -1,0 +1,72 @@
+// A viewer that takes evidence: it presses its player's keys when they are due, and notes what the peer sent, when it knew what, and what its player saw.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/net/peer/meeting.h"
+#include "game/net/peer/peer_evidence.h"
+#include "game/net/peer/viewer.h"
+#include "game/net/sampling.h"
+
+namespace rink::game {
+
+/// Of a session whose peers are seated, in real time.
+class RunWitness final : public Viewer {
+ public:
+  /// All must outlive it. `sampling` says who is watched when, the same at all peers.
+  RunWitness(const SharedGame& game, const InterestSettings& settings, Meeting& meeting, const SamplingSettings& sampling, double (*now_s)());
+  ~RunWitness() override;
+
+  /// To be used instead of the meeting's, so that what is sent is counted.
+  peer::Mail& mail() { return mail_; }
+  /// The game starts at `start_s` of the clock.
+  void start_at(double start_s) { start_s_ = start_s; }
+  /// After the last window.
+  const PeerEvidence& evidence() const { return evidence_; }
+
+  void begin(const peer::Session& session) override;
+  void when_sending(peer::Subject about) override;
+  void end() override;
+
+ private:
+  class CountedMail final : public peer::Mail {
+   public:
+    explicit CountedMail(Meeting& meeting) : meeting_(meeting) {}
+    void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
+    std::vector<std::uint8_t> receive(peer::PeerNumber from) override { return meeting_.receive(from); }
+    void part(peer::PeerNumber peer, bool is_lost) override { meeting_.part(peer, is_lost); }
+    Traffic about = Traffic::claims;
+    TrafficBytes bytes{}, messages{};
+
+   private:
+    Meeting& meeting_;
+  };
+
+  double simulated_s() const { return now_s_() - start_s_; }
+  double attend();
+  void note_decisions(double instant_s);
+  PeerLoad load() const;
+
+  Meeting& meeting_;
+  SamplingSettings sampling_;
+  double (*now_s_)();
+  double start_s_ = 0.0, rate_hz_;
+  CountedMail mail_;
+  const peer::Session* session_ = nullptr;
+  PeerEvidence evidence_;
+  std::optional<PlayerWitness> player_;
+  std::vector<std::uint32_t> bats_;           ///< by peer
+  std::vector<peer::PeerNumber> watched_;
+  std::vector<double> keys_, samples_, decisions_;
+  std::size_t next_key_ = 0, next_sample_ = 0, next_decision_ = 0;
+  bool has_begun_ = false, has_ended_ = false;
+  std::uint32_t felt_ = 0;
+};
+
+/// All agree on when they begin, the first one saying it when all are ready: the instant [s of the clock], one message late at the others. Throws Parting.
+double start_together(Meeting& meeting, double (*now_s)());
+
+}  // namespace rink::game
