@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "loadgen/peer_processes.h"
 #include "loadgen/peer_run.h"
 #include "loadgen/virtual_run.h"
 
@@ -50,7 +51,8 @@ Outcome run_campaign(const Experiment& experiment, const RunnerSettings& setting
       if (has_run_of(cell, before)) continue;
       progress.starts(cell);
       const auto start = Clock::now();
-      const auto run = experiment.transport != TransportKind::virtual_time ? run_cell : cell.mode == peer_mode ? run_virtual_peers : run_virtual_cell;
+      const bool is_virtual = experiment.transport == TransportKind::virtual_time, has_peers = cell.mode == peer_mode;
+      const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : is_virtual ? run_virtual_cell : run_cell;
       const auto record = run(settings, experiment, cell, key_logs.at(game_of(cell, experiment.population)));
       if (!record) {
         outcome.was_interrupted = true;

@@ -15,7 +15,7 @@ namespace rink::loadgen {
 
 /// Where the two programs are, where they may write, and how long anybody waits for them.
 struct RunnerSettings {
-  std::filesystem::path serve, bots;         ///< the executables rink-serve and rink-bots
+  std::filesystem::path serve, bots, peer;   ///< the executables rink-serve, rink-bots and rink-peer
   std::filesystem::path directory;           ///< an existing folder for the processes' own reports
   std::vector<int> server_processors, bots_processors;  ///< what each is pinned to; empty: not pinned
   bool wants_truth = true;                   ///< evidence is taken, and the run judged by a re-simulation

@@ -97,13 +97,15 @@ void expect_enough_files(const Experiment& experiment) {
 }
 
 /// All but the folder for the reports. Throws ExperimentError if a program is missing.
-RunnerSettings runner_settings(const Options& options) {
+RunnerSettings runner_settings(const Options& options, bool needs_peers) {
   RunnerSettings settings;
   const std::filesystem::path programs = options.programs.empty() ? own_folder() : std::filesystem::path(options.programs);
   settings.serve = programs / "rink-serve";
   settings.bots = programs / "rink-bots";
+  settings.peer = programs / "rink-peer";
   expect_program(settings.serve);
   expect_program(settings.bots);
+  if (needs_peers) expect_program(settings.peer);
   settings.is_interrupted = &is_interrupted;
   pin_apart(settings, allowed_processors());
   return settings;
@@ -170,8 +172,9 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
     return std::cout ? success : reader_gone;
   }
   if (!options.saturate.is_wanted) expect_enough_files(experiment);
-  RunnerSettings settings = runner_settings(options);
   const bool is_virtual = experiment.transport == TransportKind::virtual_time;
+  const bool has_peers = std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end();
+  RunnerSettings settings = runner_settings(options, has_peers && !is_virtual);
   const JournalHead identity{identity_of(experiment), built_commit(), {}};
   Continuation continuation = opened_results(options, experiment, identity);
   std::cerr << continuation.said;
@@ -218,7 +221,8 @@ void add_saturate_options(CLI::App& app, SaturateOptions& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Runs every mode x scheme x policy x client count x seed of an experiment as a server and its bots over loopback, and compares them."};
-  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, full, virtual and others listed there");
+  app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, full, virtual, modes (with and without a server, in virtual time; over sockets: "
+                                                         "modes_sockets) and others listed there");
   app.add_option("--out", options.out, "folder for the results (default: report, or report-2, ... if taken)");
   app.add_flag("--force", options.may_replace, "replace results that are already there; with --resume: go on even if experiment or program have changed");
   CLI::Option* resume = app.add_flag("--resume", options.is_resumed, "go on where an interrupted or killed run of the same experiment stopped (in --out, or the last report)");
@@ -226,7 +230,7 @@ int main(int argc, char** argv) {
   app.add_option("--assert", options.assertions, "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be given again (docs/experiments.md)")
       ->take_all()
       ->allow_extra_args(false);
-  app.add_option("--programs", options.programs, "folder of rink-serve and rink-bots (default: that of rink-compare)");
+  app.add_option("--programs", options.programs, "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(app, options.saturate);
   for (const char* flag : {"--resume", "--dry-run", "--assert"}) app.get_option("--saturate")->excludes(app.get_option(flag));
   app.footer(footer);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "game/net/peer/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
@@ -74,9 +75,11 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
   const auto has = [](const auto& list, const auto& value) { return std::find(list.begin(), list.end(), value) != list.end(); };
   if (!has(experiment.modes, peer_mode)) return;
   const auto refuse = [&file](const std::string& what) { throw ExperimentError(file + ": modes = " + peer_mode + " " + what); };
-  if (experiment.transport != TransportKind::virtual_time) refuse(std::string("needs transport = \"virtual\", not \"") + to_string(experiment.transport) + "\"");
-  for (const std::string& scheme : experiment.schemes)
-    if (const std::vector<std::string> able{"none", "grid", "region", "hybrid", "aura", "diamond"}; !has(able, scheme)) refuse("has no '" + scheme + "': expected schemes of " + joined(able));
+  const bool is_virtual = experiment.transport == TransportKind::virtual_time;
+  if (experiment.transport == TransportKind::udp) refuse("needs transport = \"tcp\", \"shm\" or \"virtual\", not \"udp\": peers send no datagrams");
+  for (const std::uint32_t count : experiment.clients)
+    if (!is_virtual && (count < 2 || count > game::peers_max))
+      refuse("over sockets is of 2 to " + std::to_string(game::peers_max) + " processes, not clients = " + std::to_string(count) + ": expected as many, or transport = \"virtual\"");
   if (experiment.keys != KeySource::replay) refuse("needs keys = \"replay\", which all peers know");
   if (has(experiment.policies, std::string("snapshot"))) refuse("knows the policies periodic and on-event, not snapshot");
   if (experiment.sweep_ticks != std::vector<double>{0.0}) refuse("sweeps no regions: expected sweep_ticks = 0");

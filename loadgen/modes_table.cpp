@@ -20,7 +20,8 @@ constexpr Column columns[] = {{"halo", "halo_bytes_per_client_per_s", 1e-3},    
                               {"inter.", "interest_bytes_per_client_per_s", 1e-3},   {"update", "updates_bytes_per_client_per_s", 1e-3},  {"keys", "keys_bytes_per_client_per_s", 1e-3},
                               {"down", "down_bytes_per_client_per_s", 1e-3},         {"up", "up_bytes_per_client_per_s", 1e-3},           {"wire", "wire_bytes_per_client_per_s", 1e-3},
                               {"busiest", "busiest_node_bytes_per_s", 1e-3},         {"events", "busiest_node_events_per_s", 1.0},        {"cpu s", "busiest_node_cpu_s", 1.0},
-                              {"mean", "mean_node_cpu_s", 1.0},                      {"effect", "key_to_effect_ms_p50", 1.0}};
+                              {"mean", "mean_node_cpu_s", 1.0},                      {"effect", "key_to_effect_ms_p50", 1.0},
+                              {"recall", "delivered_recall", 1.0}};
 
 std::string shown(const std::optional<double>& value, double scale) {
   if (!value) return "-";
@@ -28,6 +29,12 @@ std::string shown(const std::optional<double>& value, double scale) {
   const double scaled = *value * scale;
   std::snprintf(text, sizeof text, "%.*f", scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2, scaled);
   return text;
+}
+
+/// Of the interval of a mean, which is symmetric.
+std::optional<double> half_width(const Statistic& statistic) {
+  if (!statistic.interval || !statistic.mean) return std::nullopt;
+  return statistic.interval->high - *statistic.mean;
 }
 
 std::string padded(const std::string& text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
@@ -41,7 +48,8 @@ bool has_several_modes(std::span<const RunRecord> runs) {
 std::string modes_table(std::span<const RunRecord> runs) {
   if (!has_several_modes(runs)) return {};
   std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s both ways,\n"
-                     "events/s and processor time, the mean node's; and a key's effect, ms\n";
+                     "events/s and processor time, the mean node's; a key's effect, ms; and the fraction of what concerns a player that it knows. Means over replications, and below them half\n"
+                     "the width of their 95 % intervals\n";
   std::vector<SummaryRow> rows = summarise(runs);
   std::size_t width = 7;
   for (const SummaryRow& row : rows) width = std::max(width, row.scheme.size());
@@ -53,6 +61,10 @@ std::string modes_table(std::span<const RunRecord> runs) {
     std::snprintf(head, sizeof head, "\n%7u %-*s %-9.9s %-13.13s", row.clients, static_cast<int>(width), row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
     text += head;
     for (const Column& column : columns) text += " " + padded(shown(row.of(column.figure).mean, column.scale), 7);
+    if (row.valid_runs < 2) continue;
+    std::snprintf(head, sizeof head, "\n%7s %-*s %-9s %-13s", "", static_cast<int>(width), "", "", ("+- n=" + std::to_string(row.valid_runs)).c_str());
+    text += head;
+    for (const Column& column : columns) text += " " + padded(shown(half_width(row.of(column.figure)), column.scale), 7);
   }
   return text + "\n";
 }

@@ -247,7 +247,8 @@ RunRecord record_for(const Experiment& experiment, const Cell& cell) {
 void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report) {
   std::vector<std::string> complaints;
   const bool has_kernel_counts = record.transport == "tcp" || record.transport == "udp";
-  ReportReader server(server_report, "server", !has_kernel_counts, complaints), bots(bots_report, "bots", !has_kernel_counts, complaints);
+  const bool may_lack_figures = !has_kernel_counts || record.cell.mode == peer_mode;  // no peer plays, filters and sends for all
+  ReportReader server(server_report, "server", may_lack_figures, complaints), bots(bots_report, "bots", may_lack_figures, complaints);
   fill_from_server(record, server);
   fill_bytes(record, server, bots);
   fill_nodes(record, server);

@@ -160,6 +160,15 @@ TEST_F(PeerRunTest, ModesStandSideBySideOnlyWhereThereAreSeveral) {
   for (const Cell& cell : cells_of(experiment_)) runs.push_back(run(cell));
   const std::string table = modes_table(runs);
   EXPECT_THAT(table, testing::AllOf(HasSubstr("client-server"), HasSubstr("peer-to-peer"), HasSubstr("claims")));
+  EXPECT_THAT(table, testing::Not(HasSubstr("+- n="))) << "one replication has no interval";
+  std::vector<RunRecord> replicated = runs;
+  replicated.insert(replicated.end(), runs.begin(), runs.end());
+  replicated[2].cell.seed = replicated[3].cell.seed = 4;
+  *replicated[2].up_bytes_per_client_per_s += 2000.0;
+  const double half_kB = 12.7062 * 1.0;  // t(0.975, 1) s / sqrt(2), s = 2 kB / sqrt(2)
+  char shown[16];
+  std::snprintf(shown, sizeof shown, "%.1f", half_kB);
+  EXPECT_THAT(modes_table(replicated), testing::AllOf(HasSubstr("+- n=2"), HasSubstr(std::string("   ") + shown)));
   runs.pop_back();
   EXPECT_EQ(modes_table(runs), "");
 }
@@ -175,7 +184,9 @@ std::string complaint_of(const std::string& more) {
 
 TEST(PeerExperiment, RefusesWhatPeersDoNotDo) {
   EXPECT_EQ(complaint_of("transport = \"virtual\"\n"), "");
-  EXPECT_THAT(complaint_of("transport = \"udp\"\n"), HasSubstr("x.toml: modes = peer-to-peer needs transport = \"virtual\", not \"udp\""));
+  EXPECT_EQ(complaint_of("clients = [2, 64]\n"), "");
+  EXPECT_THAT(complaint_of("clients = 65\n"), HasSubstr("x.toml: modes = peer-to-peer over sockets is of 2 to 64 processes, not clients = 65"));
+  EXPECT_THAT(complaint_of("transport = \"udp\"\n"), HasSubstr("needs transport = \"tcp\", \"shm\" or \"virtual\", not \"udp\""));
   EXPECT_THAT(complaint_of("transport = \"virtual\"\nkeys = \"live\"\n"), HasSubstr("needs keys = \"replay\""));
   EXPECT_THAT(complaint_of("transport = \"virtual\"\npolicies = [\"snapshot\"]\n"), HasSubstr("not snapshot"));
   EXPECT_THAT(complaint_of("transport = \"virtual\"\nsweep_ticks = [0, 1]\n"), HasSubstr("expected sweep_ticks = 0"));
