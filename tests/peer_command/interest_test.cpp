@@ -51,6 +51,7 @@ TEST(PlayerPicture, SurvivesWhateverItIsTold) {
       picture.hear(1, bytes, 20.0);
       picture.forget_heard();
     }
+    picture.drop_forgotten();
     for (const auto& [body, belief] : picture.beliefs()) EXPECT_TRUE(body < 50 && belief.is_there && belief.source == 1);
     picture.forget(1);
     for (const auto& [body, belief] : picture.beliefs()) EXPECT_FALSE(belief.is_there);

@@ -184,6 +184,11 @@ game::ExitStatus report(const Options& options, const game::SharedGame& shared, 
   Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
   if (viewing.viewer) report["view"] = game::report_of(*viewing.viewer);
   report["transport"] = game::report_of(meeting.transported());
+  if (!part.has_left) {
+    const Json hash = report["hash"];  // the last line, where readers look for it
+    report.erase("hash");
+    report["hash"] = hash;
+  }
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   else std::printf("%s\n", report.dump(2).c_str());
   const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
