@@ -32,6 +32,7 @@ struct PlayOptions {
 inline void add_peer_options(CLI::App& app, PlayOptions& options, const std::vector<CLI::Option*>& others) {
   constexpr const char* group = "Among peers, without a server";
   game::Terms& terms = options.sharing.terms = {.peer_count = 2, .until = 600.0, .window = 0.02, .balance_windows = 25};
+  terms.interest.scheme = "none";
   const auto peer = app.add_option("--peer", options.peer, "be one of the peers that share a game: HOST:PORT of any that is there already, a rink play or a rink peer")->type_name("HOST:PORT")->group(group);
   const auto listen = app.add_option("--peer-listen", options.peer_listen, "be the first of them; or, with --peer, where others reach this one (default on this machine: 127.0.0.1:0)")->type_name("ADDRESS:PORT")->group(group);
   for (CLI::Option* one : {peer, listen})
@@ -40,6 +41,9 @@ inline void add_peer_options(CLI::App& app, PlayOptions& options, const std::vec
   first(app.add_option("--peers", terms.peer_count, "how many there will be, those who only compute or play bots among them; the first one's to say")->check(CLI::Range(2u, game::peers_max)));
   first(app.add_option("--until", terms.until, "simulated time at which to stop [s]; the first one's to say")->check(game::number_from(1e-6, game::seconds_max)));
   first(app.add_option("--window", terms.window, "simulated time from one agreement to the next [s]: a key is felt one to two windows later; the first one's to say")->check(game::number_from(1e-3, 1.0)));
+  first(app.add_option("--scheme", terms.interest.scheme, "the filter by which peers tell each other what players see beyond what their peers have (docs/im.md): none, all is told; region, grid, ...; the first one's to say")
+            ->check([](const std::string& scheme) { return im::complaint_about(scheme, {}).value_or(""); }));
+  app.add_option("--view", options.sharing.view_fraction, "area that is told of, around the own bat, as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->group(group)->capture_default_str();
   options.sharing.scene = "match";
   app.add_option("--scene", options.sharing.scene, "a scene file or the name of a preset; the same for all peers")->group(group)->capture_default_str();
   app.add_option("--bats", options.sharing.bats, "scale a crowd to so many bats at constant density; 0: as it is; the same for all peers")->check(CLI::Range(0u, game::bats_max))->group(group)->capture_default_str();

@@ -56,6 +56,7 @@ PeerSight HandPlayer::sight_of(const peer::Session& session) const {
   sight.bodies.reserve(peer.owned().size() + peer.ghosts().size());
   add_bodies(peer, peer.owned(), KnownBody::Source::own, sight);
   add_bodies(peer, peer.ghosts(), KnownBody::Source::ghost, sight);
+  if (viewer != nullptr) add_told(sight);
   sight.zones.own_peer = peer.number();
   sight.zones.halo = peer.halo();
   sight.zones.own_count = peer.owned().size();
@@ -64,6 +65,18 @@ PeerSight HandPlayer::sight_of(const peer::Session& session) const {
     for (const peer::Box& box : session.division().zones_of(member))
       sight.zones.zones.push_back({member, std::max(0.0, box.low_x), std::max(0.0, box.low_y), std::min(field.length, box.high_x), std::min(field.width, box.high_y)});
   return sight;
+}
+
+/// By their owners; of those that have come here meanwhile the picture keeps nothing for long.
+void HandPlayer::add_told(PeerSight& sight) const {
+  std::vector<std::uint32_t> here;
+  for (const KnownBody& body : sight.bodies) here.push_back(body.body);
+  std::sort(here.begin(), here.end());
+  for (const auto& [body, belief] : viewer->interest().picture().beliefs()) {
+    if (!belief.is_there || game_.start().world().kind({body}) == physics::BodyKind::post || std::binary_search(here.begin(), here.end(), body)) continue;
+    sight.zones.told.push_back(body);
+    sight.bodies.push_back({.body = body, .source = KnownBody::Source::told, .motion = belief.motion, .thrust = belief.motion.acceleration});
+  }
 }
 
 void HandPlayer::add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies, KnownBody::Source source, PeerSight& sight) const {

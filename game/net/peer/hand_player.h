@@ -9,6 +9,7 @@
 #include "game/control/game.h"
 #include "game/net/peer/hand.h"
 #include "game/net/peer/shared_game.h"
+#include "game/net/peer/viewer.h"
 
 namespace rink::game {
 
@@ -20,6 +21,8 @@ class HandPlayer final : public Onlooker {
   void before_window(peer::Session& session) override;
   void after_window(const peer::Session& session) override;
   std::uint64_t presses() const { return presses_; }
+  /// Who knows what is beyond the halo, or nobody.
+  const Viewer* viewer = nullptr;
   /// By the peer, for the window's figures.
   std::function<std::uint64_t()> bytes_sent = [] { return std::uint64_t{0}; };
 
@@ -33,6 +36,7 @@ class HandPlayer final : public Onlooker {
   };
   void count_felt(const peer::Session& session);
   PeerSight sight_of(const peer::Session& session) const;
+  void add_told(PeerSight& sight) const;
   void add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies, KnownBody::Source source, PeerSight& sight) const;
 
   const SharedGame& game_;

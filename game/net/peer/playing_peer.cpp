@@ -98,7 +98,7 @@ void PlayingPeer::share() {
   if (!is_late) meeting_->gather();
   const Terms& terms = meeting_->terms();
   if (terms.is_seated) throw Parting(ExitStatus::not_admitted, "the peers there are seated, and their players' keys are known: nobody can play at a window");
-  const Viewing viewing = make_viewing(game_, *meeting_, {}, now_s_);
+  const Viewing viewing = make_viewing(game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}}, now_s_);
   const Guest& self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
   if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
@@ -106,6 +106,8 @@ void PlayingPeer::share() {
   if (!is_late) meeting_->rest_until(now_s_() + settings_.countdown_s);
   hand_.set_stage(PeerStage::Step::playing, "");
   HandPlayer player(game_, self.first_bat, hand_);
+  player.viewer = viewing.viewer.get();
+  if (player.viewer == nullptr) hand_.notice("The first peer names no --scheme: what lies beyond the halo is not told, and not seen");
   player.bytes_sent = [this] { return meeting_->bytes_sent(); };
   Manner manner;
   std::optional<double> start_s;  // of the simulated time

@@ -23,6 +23,7 @@ struct PlayingPeerSettings {
   Terms terms;                  ///< a first peer's to say
   double patience_s = 10.0;     ///< with peers that say nothing
   double countdown_s = 3.0;
+  double view_fraction = 1.0;   ///< of the field's area, about the own bat; from 1 on everything
   std::string record;           ///< everybody's keys go to this file in the end; empty: nowhere
 };
 

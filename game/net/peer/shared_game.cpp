@@ -201,9 +201,9 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
     if (manner.wants_to_leave && terms.is_mirrored && manner.wants_to_leave()) session.leave();
     if (manner.onlooker != nullptr) manner.onlooker->before_window(session);
     session.advance();
-    if (manner.onlooker != nullptr) manner.onlooker->after_window(session);
     membership.tell();
     if (manner.listener != nullptr) manner.listener->when_stepped();
+    if (manner.onlooker != nullptr) manner.onlooker->after_window(session);
     crowd.act(session);
   }
   if (manner.listener != nullptr) manner.listener->end();
