@@ -74,7 +74,7 @@ PartChange Peer::change(bool is_whole) const {
 void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   const std::uint32_t body = scored.number;
   const bool was_own = roles_[body] == own;
-  for (std::vector<std::uint32_t>* list : {&owned_, &ghosts_}) std::erase(*list, body);
+  std::erase(ghosts_, body);
   for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
   if (!portion_.is_there(body)) portion_.put(body, scored.state);
   extent_max_ = std::max(extent_max_, scored.state.extent().maxCoeff());
@@ -83,22 +83,19 @@ void Peer::put_back(const Arrivals::Body& scored, const Vector2& place) {
   owners_[body] = division_.owner_of(place);
   const auto insert = [body](std::vector<std::uint32_t>& list) { list.insert(std::upper_bound(list.begin(), list.end(), body), body); };
   if (owners_[body] == number_) {
-    roles_[body] = own;
-    owned_.push_back(body);
+    if (!was_own) own_from_now(body);
+    else if (keeps_changes_) changed_.push_back(body);
     homes_[body] = home_of(place, 0);
+    watch(body, watched);
     for (PeerNumber peer = 0; peer < division_.peer_count(); ++peer)
       if (peer != number_ && is_in_region(peer, reach)) insert(known_[peer]);
-    if (keeps_changes_) changed_.push_back(body);
-  } else if (is_in_region(number_, reach)) {
-    roles_[body] = ghost;
-    insert(ghosts_);
   } else {
-    roles_[body] = away;
-    portion_.drop(body);
-  }
-  if (was_own && owners_[body] != number_) {
-    ++counters_.hand_overs;
-    if (keeps_changes_) left_.push_back(body);
+    if (was_own) disown(body);
+    std::erase(watched_, body);
+    is_watched_[body] = not_watched;
+    roles_[body] = is_in_region(number_, reach) ? ghost : away;
+    if (roles_[body] == ghost) insert(ghosts_);
+    else portion_.drop(body);
   }
   if (!is_margin_fit()) choose_margin();
   portion_.begin_window();

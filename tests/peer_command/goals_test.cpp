@@ -51,7 +51,8 @@ class Notes final : public Onlooker {
     std::vector<peer::Arrivals::Body> own;
   };
   void after_window(const peer::Session& session) override {
-    windows.push_back({session.peer().now(), peer::own_bodies(session.peer()).bodies});
+    windows.push_back({session.peer().now(), {}});
+    for (const std::uint32_t body : session.peer().owned()) windows.back().own.push_back({body, session.peer().state(body)});
     repeats = session.counters().peer.repeats;
   }
   std::vector<Window> windows;
