@@ -8,6 +8,7 @@
 
 #include "game/net/flags.h"
 #include "game/net/peer/playing_peer.h"
+#include "game/net/peer/viewing_options.h"
 #include "game/view/menu.h"
 #include "game/view/picture_of.h"
 
@@ -42,7 +43,7 @@ inline void add_peer_options(CLI::App& app, PlayOptions& options, const std::vec
   first(app.add_option("--until", terms.until, "simulated time at which to stop [s]; the first one's to say")->check(game::number_from(1e-6, game::seconds_max)));
   first(app.add_option("--window", terms.window, "simulated time from one agreement to the next [s]: a key is felt one to two windows later; the first one's to say")->check(game::number_from(1e-3, 1.0)));
   first(app.add_option("--scheme", terms.interest.scheme, "the filter by which peers tell each other what players see beyond what their peers have (docs/im.md): none, all is told; region, grid, ...; the first one's to say")
-            ->check([](const std::string& scheme) { return im::complaint_about(scheme, {}).value_or(""); }));
+            ->check(game::objection_to));
   app.add_option("--view", options.sharing.view_fraction, "area that is told of, around the own bat, as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->group(group)->capture_default_str();
   options.sharing.scene = "match";
   app.add_option("--scene", options.sharing.scene, "a scene file or the name of a preset; the same for all peers")->group(group)->capture_default_str();

@@ -21,10 +21,12 @@ void add_evidence_options(CLI::App& app, ViewingOptions& options) {
 
 }  // namespace
 
+std::string objection_to(const std::string& scheme) { return im::complaint_about(scheme, {}).value_or(""); }
+
 void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join) {
   InterestTerms& interest = terms.interest;
   app.add_option("--scheme", interest.scheme, "peers tell each other where their players look, and what these see of others' bodies: the filter of each sender (docs/im.md), e.g. region; without this nobody is told anything; the first peer's to say")
-      ->check([](const std::string& scheme) { return im::complaint_about(scheme, {}).value_or(""); })
+      ->check(objection_to)
       ->excludes(join);
   app.add_option("--policy", interest.policy, "with --scheme: on-event, trajectories when they change; or periodic, positions in every window; the first peer's to say")
       ->check(CLI::IsMember({"on-event", "periodic"}))

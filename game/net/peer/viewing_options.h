@@ -20,6 +20,8 @@ struct ViewingOptions {
   double warm_up_s = 0.0;
 };
 
+/// What is wrong with a scheme that a flag names, or nothing.
+std::string objection_to(const std::string& scheme);
 /// `join`: the flag beside which the first peer's cannot stand.
 void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join);
 /// Throws std::invalid_argument for what the flags of a first peer cannot mean together.
