@@ -51,7 +51,7 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
   Body &a = bodies_[low], &b = bodies_[high];
   if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck || !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0) return false;
-  if (is_crowded(body, p)) return false;
+  if (is_crowded(body, p) || (journal_ != nullptr && has_company(body, p, time))) return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0, elapsed_b = b.time < time ? time - b.time : 0.0;
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b, by = b.y + b.vy * elapsed_b;
   const Real x = ax - bx, y = ay - by;
@@ -103,7 +103,11 @@ void BasicEngine<Real>::collide_ordered(std::uint32_t body, Partner p, Real time
     if (!is_fixed(p)) note_impact(p, time);
     if ((is_hemmed_in(c) || is_pressed_hard(body, p, approach, time)) && hop(c, approach, pressing, time)) return;
   }
-  if (is_crowded(body, p) && collide_together(c, time)) return;
+  if (is_crowded(body, p)) {
+    if (collide_together(c, time)) return;
+  } else if (journal_ != nullptr) {
+    look_at_touching(c, time);
+  }
   bounce(c, given_back, time);
 }
 

@@ -17,6 +17,8 @@ constexpr int cycles_max = 4;                 // of rounds and yielding
 constexpr std::uint64_t endless_events = 64;  // at one instant: then too
 /// Gaps within so many roundings of an offset are none.
 constexpr double touch_roundings = 16.0;
+/// Two pucks that far apart do not touch, whatever the roundings [m].
+constexpr double clear_of_touching = 1e-6;
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
 template <class Real>
 constexpr Real rest_of_closing = 4e-13 * fineness<Real>;
@@ -43,8 +45,10 @@ bool BasicEngine<Real>::is_endless() const { return events_at_once_ % endless_ev
 /// was found that keeps the energy; then nothing has changed, and no other is looked for until the instant is over.
 template <class Real>
 bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
-  if (is_rough() || is_hopeless_ || !(gather_touching(c, time) || is_endless())) return false;
-  if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+  if (is_rough() || is_hopeless_) return false;
+  const bool is_joint = gather_touching(c, time) || is_endless();
+  note_looked_at();
+  if (!is_joint) return false;
   velocities_before_ = joint_velocities_;
   const Real energy = joint_energy();
   is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>));
@@ -53,6 +57,41 @@ bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
   ++counters_.joint_impacts;
   apply_joint(time);
   return true;
+}
+
+/// An impact that comes alone here would be joint if any of those who touch were hit at this instant, however far away, by somebody whom this world does not have. So it
+/// concerns all of them, and the journal says so; nothing else changes.
+template <class Real>
+void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
+  if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
+  gather_touching(c, time);
+  note_looked_at();
+}
+
+template <class Real>
+void BasicEngine<Real>::note_looked_at() {
+  if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+}
+
+/// Whether a third body touches one of the two, by the measure of add_touch().
+template <class Real>
+bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
+  const auto has_third = [&](std::uint32_t one, Partner two) {
+    candidates_.resize(grid_.collected_max());
+    const std::uint32_t count = grid_.collect(one, candidates_.data());
+    const Vector2 place = position_at(one, time);
+    const Real near = touch_distance(at(one, time).velocity, time);
+    return std::any_of(candidates_.data(), candidates_.data() + count, [&](std::uint32_t other) {
+      if (other == one || other == two || is_fixed(other)) return false;
+      const Body& b = bodies_[other];
+      if ((b.flags & curved) != 0 || puck_drag_ != 0.0) return contact(one, other, time).gap.distance <= near;
+      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - place.x(), y = b.y + b.vy * elapsed - place.y();
+      const Real reach = b.radius + bodies_[one].radius + Real(clear_of_touching);
+      if (bodies_[one].kind == BodyKind::puck && b.kind == BodyKind::puck && x * x + y * y > reach * reach) return false;
+      return contact(one, other, time).gap.distance <= near;
+    });
+  };
+  return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
 }
 
 template <class Real>
@@ -73,12 +112,16 @@ std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
 }
 
 template <class Real>
+Real BasicEngine<Real>::touch_distance(const Vector2& velocity, Real time) const {
+  return touch_roundings * (tolerance_ + std::numeric_limits<Real>::epsilon() * time * velocity.norm());
+}
+
+template <class Real>
 void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) || (p == at_hand.body && body == at_hand.partner);
-  const Real rounding = tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
-  if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
+  if (!is_at_hand && c.gap.distance > touch_distance(joint_velocities_[place], time)) return;
   std::uint32_t other = fixed_place;
   if (!is_fixed(p)) {
     if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end()) return;

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "game/peer/assembly.h"
+#include "game/peer/cuts.h"
 #include "tests/peer/scene_classes.h"
 #include "tests/peer/shared_scenes.h"
 
@@ -114,6 +115,57 @@ TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
     const Played played = expect_same_history(number, 150);
     EXPECT_GT(played.truth.joint_impacts, 0u);
     EXPECT_LT(played.counters.repeats, played.counters.windows / 10);
+  }
+}
+
+/// Plays `world`, which nobody presses keys in, alone and among peers. Answers how many windows were repeated.
+std::uint64_t expect_same_bodies(physics::World& world, const Division& division, double halo, int window_count) {
+  constexpr double length = 0.01;
+  Assembly assembly(world, division, halo, length);
+  for (int window = 1; window <= window_count; ++window) {
+    physics::test::RandomKeys::advance(world, length * window);
+    assembly.advance();
+    for (std::uint32_t body = 0; body < world.body_count(); ++body) {
+      if (bytes_of(assembly.state(body)) == bytes_of(physics::Portion::state_in(world, body))) continue;
+      ADD_FAILURE() << division.peer_count() << " peers, window " << window << ", body " << body;
+      return 0;
+    }
+  }
+  std::uint64_t repeats = 0;
+  for (const Peer& peer : assembly.peers()) repeats += peer.counters().repeats;
+  return repeats;
+}
+
+Division slices(const physics::Field& field, PeerNumber peer_count) {
+  std::vector<Zone> zones;
+  for (PeerNumber k = 0; k < peer_count; ++k) zones.push_back({{field.length * k / peer_count, 0.0, field.length * (k + 1) / peer_count, field.width}, k});
+  return Division(field, std::move(zones), peer_count);
+}
+
+/// A row that touches from end to end. Both ends are struck across it at one instant, which makes one joint impact of what nobody but the whole sees together: each peer sees
+/// one end's impact alone, or none, and nobody's ghosts move otherwise than their owners say.
+TEST(SharedSimulation, EqualsOneEngineWhereARowJoinsImpactsThatNoPeerSeesTogether) {
+  for (const PeerNumber peer_count : {2, 3, 4, 8, 16}) {
+    physics::World world(physics::test::rink_of(4.0, 2.0, 1.0, 0.0, 1.0));
+    const double radius = 0.03125;
+    add_row(world, {0.5, 1.0}, {2.0 * radius, 0.0}, 49, radius, {0.0, 0.0});
+    world.add(physics::PuckSpec{.position = {0.5, 1.0 - 2.0 * radius - 0.017}, .velocity = {0.0, 1.7}, .radius = radius, .mass = 1.3});
+    world.add(physics::PuckSpec{.position = {3.5, 1.0 - 2.0 * radius - 0.019}, .velocity = {0.0, 1.9}, .radius = radius, .mass = 0.7});
+    const std::uint64_t repeats = expect_same_bodies(world, slices(world.spec().field, peer_count), 0.1, 4);
+    EXPECT_EQ(world.counters().joint_impacts, 1u);
+    EXPECT_GT(repeats, 0u) << "the row was known as a whole where it lies across borders";
+  }
+}
+
+/// Rows along and across that meet, both struck at one instant.
+TEST(SharedSimulation, EqualsOneEngineWhereCradlesCrossOverSeveralPeers) {
+  for (const PeerNumber peer_count : {2, 3, 4, 6, 8, 16}) {
+    SharedScene scene = shared_scene(15441, 0.0);
+    std::vector<Vector2> places;
+    for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) places.push_back(scene.world.position({body}));
+    const Division division = Cuts::by_count(scene.world.spec().field, places, peer_count).division(peer_count);
+    expect_same_bodies(scene.world, division, 0.2, 30);
+    EXPECT_GT(scene.world.counters().joint_impacts, 0u);
   }
 }
 
