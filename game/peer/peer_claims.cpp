@@ -160,7 +160,8 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
-  verdict = {window_, is_trusted && needed <= halo, 0.0, portion_.journal().at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
+  const std::uint64_t at_once_max = std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
+  verdict = {window_, is_trusted && needed <= halo, 0.0, at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
     verdict.halo = usual_halo_;

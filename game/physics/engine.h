@@ -235,7 +235,6 @@ class BasicEngine {
   void look_at_touching(const Contact& contact, Real time);
   void note_looked_at();
   bool has_company(std::uint32_t body, Partner partner, Real time);
-  Real touch_distance(const Vector2& velocity, Real time) const;
   void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
   std::uint32_t place_in_joint(std::uint32_t body, Real time);
   Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const;

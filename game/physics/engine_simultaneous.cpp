@@ -17,7 +17,7 @@ constexpr int cycles_max = 4;                 // of rounds and yielding
 constexpr std::uint64_t endless_events = 64;  // at one instant: then too
 /// Gaps within so many roundings of an offset are none.
 constexpr double touch_roundings = 16.0;
-/// Two pucks that far apart do not touch, whatever the roundings [m].
+/// Bodies that far apart do not touch, whatever the roundings [m].
 constexpr double clear_of_touching = 1e-6;
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
 template <class Real>
@@ -73,23 +73,23 @@ void BasicEngine<Real>::note_looked_at() {
   if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
 }
 
-/// Whether a third body touches one of the two, by the measure of add_touch().
+/// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
 template <class Real>
 bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
+  candidates_.resize(grid_.collected_max());
   const auto has_third = [&](std::uint32_t one, Partner two) {
-    candidates_.resize(grid_.collected_max());
     const std::uint32_t count = grid_.collect(one, candidates_.data());
-    const Vector2 place = position_at(one, time);
-    const Real near = touch_distance(at(one, time).velocity, time);
-    return std::any_of(candidates_.data(), candidates_.data() + count, [&](std::uint32_t other) {
-      if (other == one || other == two || is_fixed(other)) return false;
-      const Body& b = bodies_[other];
-      if ((b.flags & curved) != 0 || puck_drag_ != 0.0) return contact(one, other, time).gap.distance <= near;
-      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - place.x(), y = b.y + b.vy * elapsed - place.y();
-      const Real reach = b.radius + bodies_[one].radius + Real(clear_of_touching);
-      if (bodies_[one].kind == BodyKind::puck && b.kind == BodyKind::puck && x * x + y * y > reach * reach) return false;
-      return contact(one, other, time).gap.distance <= near;
-    });
+    const Body& a = bodies_[one];
+    const bool is_straight = (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
+    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead, ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
+    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end; ++other) {
+      const Body& b = bodies_[*other];
+      const bool is_pair_straight = is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
+      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax, y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
+      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two || is_fixed(*other)) continue;
+      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching)) return true;
+    }
+    return false;
   };
   return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
 }
@@ -112,16 +112,12 @@ std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
 }
 
 template <class Real>
-Real BasicEngine<Real>::touch_distance(const Vector2& velocity, Real time) const {
-  return touch_roundings * (tolerance_ + std::numeric_limits<Real>::epsilon() * time * velocity.norm());
-}
-
-template <class Real>
 void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
   const std::uint32_t body = joint_[place];
   const Contact c = contact(body, p, time);
   const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) || (p == at_hand.body && body == at_hand.partner);
-  if (!is_at_hand && c.gap.distance > touch_distance(joint_velocities_[place], time)) return;
+  const Real rounding = tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
+  if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
   std::uint32_t other = fixed_place;
   if (!is_fixed(p)) {
     if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end()) return;

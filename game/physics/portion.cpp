@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 
 #include "game/physics/engine.h"
 
@@ -10,6 +11,16 @@ namespace rink::physics {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+}
+
+std::uint64_t most_at_once(std::span<const double> times) {
+  constexpr double roundings = 32.0;  // twice as long as the engine's instant, for times may be some roundings out of order
+  std::size_t most = 0, first = 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    while (times[first] + roundings * std::numeric_limits<double>::epsilon() * (1.0 + times[k]) < times[k]) ++first;
+    most = std::max(most, k - first + 1);
+  }
+  return most;
 }
 
 Portion::Portion(const WorldSpec& spec, std::uint32_t body_count) : world_(spec), is_there_(body_count, 0) {

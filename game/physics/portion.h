@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,10 @@ using Hold = BasicHold<double>;
 
 /// So many events at one instant, wherever in the field, and the engine thinks of means beyond the bodies concerned; below, they alone matter.
 constexpr std::uint64_t events_at_once_local = 64;
+
+/// No fewer than any world counts at one instant among events at these times [s], in the order in which they came. Where an instant begins depends on who else is in the world:
+/// what is one instant there may be the end of one and the beginning of another here.
+std::uint64_t most_at_once(std::span<const double> times);
 
 /// Bodies have the numbers that they have in the whole: there is a blank slot for each of `body_count`, and bodies are put into theirs and dropped from it. What is there goes on
 /// with the bits that it has in the whole, for as long as nothing that is not there would have touched it. Time goes by windows, each of which can be undone.

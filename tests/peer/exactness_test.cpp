@@ -6,6 +6,7 @@
 
 #include "game/peer/assembly.h"
 #include "game/peer/cuts.h"
+#include "tests/peer/crossing_rows.h"
 #include "tests/peer/scene_classes.h"
 #include "tests/peer/shared_scenes.h"
 
@@ -118,11 +119,19 @@ TEST(SharedSimulation, EqualsOneEngineWhereCradlesLieSideBySide) {
   }
 }
 
-/// Plays `world`, which nobody presses keys in, alone and among peers. Answers how many windows were repeated.
-std::uint64_t expect_same_bodies(physics::World& world, const Division& division, double halo, int window_count) {
+/// Plays `scene` alone and among peers. Answers how many windows were repeated.
+std::uint64_t expect_same_bodies(SharedScene& scene, const Division& division, double halo, int window_count) {
   constexpr double length = 0.01;
+  physics::World& world = scene.world;
   Assembly assembly(world, division, halo, length);
+  std::stable_sort(scene.keys.begin(), scene.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
+  for (const Key& key : scene.keys) assembly.press(key);
+  std::size_t next = 0;
   for (int window = 1; window <= window_count; ++window) {
+    for (; next < scene.keys.size() && scene.keys[next].time <= length * window; ++next) {
+      physics::test::RandomKeys::advance(world, scene.keys[next].time);
+      world.set_thrust({scene.keys[next].bat}, scene.keys[next].thrust);
+    }
     physics::test::RandomKeys::advance(world, length * window);
     assembly.advance();
     for (std::uint32_t body = 0; body < world.body_count(); ++body) {
@@ -146,12 +155,13 @@ Division slices(const physics::Field& field, PeerNumber peer_count) {
 /// one end's impact alone, or none, and nobody's ghosts move otherwise than their owners say.
 TEST(SharedSimulation, EqualsOneEngineWhereARowJoinsImpactsThatNoPeerSeesTogether) {
   for (const PeerNumber peer_count : {2, 3, 4, 8, 16}) {
-    physics::World world(physics::test::rink_of(4.0, 2.0, 1.0, 0.0, 1.0));
+    SharedScene scene{physics::World(physics::test::rink_of(4.0, 2.0, 1.0, 0.0, 1.0)), {}};
+    physics::World& world = scene.world;
     const double radius = 0.03125;
     add_row(world, {0.5, 1.0}, {2.0 * radius, 0.0}, 49, radius, {0.0, 0.0});
     world.add(physics::PuckSpec{.position = {0.5, 1.0 - 2.0 * radius - 0.017}, .velocity = {0.0, 1.7}, .radius = radius, .mass = 1.3});
     world.add(physics::PuckSpec{.position = {3.5, 1.0 - 2.0 * radius - 0.019}, .velocity = {0.0, 1.9}, .radius = radius, .mass = 0.7});
-    const std::uint64_t repeats = expect_same_bodies(world, slices(world.spec().field, peer_count), 0.1, 4);
+    const std::uint64_t repeats = expect_same_bodies(scene, slices(world.spec().field, peer_count), 0.1, 4);
     EXPECT_EQ(world.counters().joint_impacts, 1u);
     EXPECT_GT(repeats, 0u) << "the row was known as a whole where it lies across borders";
   }
@@ -164,10 +174,30 @@ TEST(SharedSimulation, EqualsOneEngineWhereCradlesCrossOverSeveralPeers) {
     std::vector<Vector2> places;
     for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) places.push_back(scene.world.position({body}));
     const Division division = Cuts::by_count(scene.world.spec().field, places, peer_count).division(peer_count);
-    expect_same_bodies(scene.world, division, 0.2, 30);
+    expect_same_bodies(scene, division, 0.2, 30);
     EXPECT_GT(scene.world.counters().joint_impacts, 0u);
   }
 }
+
+void expect_same_crossing_rows(std::uint64_t first, std::uint64_t last, int window_count) {
+  std::uint64_t joint_impacts = 0, repeats = 0;
+  for (std::uint64_t number = first; number < last && !testing::Test::HasFailure(); ++number) {
+    SCOPED_TRACE("rows " + std::to_string(number));
+    Random random(11 * number + 5);
+    SharedScene scene = crossing_rows(number, 0.01 * window_count);
+    const PeerNumber peer_count = 2 + below(random, 15);
+    const Division division = random_division(scene.world.spec().field, random, peer_count);
+    repeats += expect_same_bodies(scene, division, uniform(random, 0.05, 0.25), window_count);
+    joint_impacts += scene.world.counters().joint_impacts;
+  }
+  EXPECT_GT(joint_impacts, (last - first) / 4);
+  EXPECT_GT(repeats, 0u);
+  std::cout << joint_impacts << " joint impacts, " << repeats << " windows repeated\n";
+}
+
+TEST(SharedSimulation, EqualsOneEngineWhereRowsCrossAndAreStruckAtOneInstant) { expect_same_crossing_rows(0, 50, 12); }
+
+TEST(SharedSimulation, EqualsOneEngineWhereThousandRowsCrossLong) { expect_same_crossing_rows(100, 1100, 40); }
 
 /// A thousand scenes in forty parts, which can be run one by one: --gtest_filter='*SharedSimulationLong*/7'. Classes that are rare occur in all parts together.
 class SharedSimulationLong : public testing::TestWithParam<std::uint64_t> {};

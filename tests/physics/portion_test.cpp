@@ -138,5 +138,16 @@ TEST(Portion, PredictsWhenARestContactEndsAnewIfTheOtherSideIsPut) {
   EXPECT_EQ(corrected->world().hash(), fresh->world().hash());
 }
 
+TEST(Portion, CountsWhatAnotherWorldMayCountAtOneInstant) {
+  const double rounding = 0x1p-52 * 2.0, begin = 1.0;
+  // A world that begins to count with the second one finds three within its 16 roundings; one that begins with the first, two and then two.
+  const std::vector<double> times{begin, begin + 10 * rounding, begin + 17 * rounding, begin + 26 * rounding, begin + 1.0};
+  EXPECT_GE(most_at_once(times), 3u);
+  EXPECT_LE(most_at_once(times), 4u);
+  EXPECT_EQ(most_at_once({}), 0u);
+  EXPECT_EQ(most_at_once(std::vector<double>{0.1, 0.2, 0.2 + 1e-12, 0.3}), 1u);
+  EXPECT_EQ(most_at_once(std::vector<double>(70, 5.0)), 70u);
+}
+
 }  // namespace
 }  // namespace rink::physics::test
