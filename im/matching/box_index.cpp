@@ -103,20 +103,23 @@ bool BoxIndex::follow(const RegionHistory& regions) {
 
 /// Takes up the boxes at places `first` to `end`, those of `level`.
 void BoxIndex::follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end) {
-  float widest_x = 0.0f, widest_y = 0.0f, shift_x = 0.0f, shift_y = 0.0f;
+  float widest_x = 0.0f, widest_y = 0.0f, shift_x = 0.0f, shift_y = 0.0f, begun_x = 0.0f, begun_y = 0.0f;
   const Projection projection = projection_;
   bool is_exact = is_exact_;
   for (std::size_t i = first; i < end; ++i) {
     if (i + follow_ahead < end) regions.prefetch(ids_[i + follow_ahead]);
     const Region& region = regions[ids_[i]].now;
-    const FloatBox before = before_[i], now = projection(region), hull = hull_of(before, now);
+    const FloatBox binned = now_[i], before = before_[i], now = projection(region), hull = hull_of(before, now);
     if (is_exact) is_exact = projection.is_exact(region, now);
     now_.set(i, now);
     widest_x = std::max(widest_x, hull.high_x - hull.low_x), widest_y = std::max(widest_y, hull.high_y - hull.low_y);
+    begun_x = std::max(begun_x, before.low_x - binned.low_x), begun_y = std::max(begun_y, before.low_y - binned.low_y);
     shift_x = std::max(shift_x, std::abs(now.low_x - before.low_x)), shift_y = std::max(shift_y, std::abs(now.low_y - before.low_y));
   }
   is_exact_ = is_exact;
   level.x.widest = widest_x, level.y.widest = widest_y;
+  // The cell is that of the hull's low corner, so at first a box may be beyond it by the step that was binned.
+  if (follow_count_ == 1) shift_x += begun_x, shift_y += begun_y;
   level.x.drift += shift_x, level.y.drift += shift_y;
 }
 

@@ -113,6 +113,38 @@ TEST(ChangeJoin, FollowsManyWhoDriftSlowly) {
 }
 TEST(ChangeJoin, FollowsManySubscribersWhoDriftSlowly) { drift(layouts[1], 4, 50, 5'000, 15, Shape::rectangle); }
 
+/// Who was binned while it took a large step is ahead of its cell by that step, however small the later ones are.
+TEST(ChangeJoin, FollowsManyWhoAreKickedNowAndThen) {
+  constexpr std::size_t entities = 3'000, subscribers = 100;
+  constexpr double world = 20.0;
+  std::mt19937_64 random(9);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  struct Square {
+    double x, y, half;
+    Region region() const { return {x - half, y - half, x + half, y + half}; }
+  };
+  std::vector<Square> here(entities + subscribers);
+  for (std::size_t k = 0; k < here.size(); ++k) here[k] = {between(0.0, world), between(0.0, world), k < entities ? 0.04 : 1.0};
+  OverlapFilter filter({0.0, 0.0, world, world}, Instructions::best, Shape::rectangle);
+  std::vector<bool> known(entities * subscribers);
+  for (int tick = 0; tick < 40; ++tick) {
+    const double step = tick % 12 == 0 ? 0.3 : 0.002;
+    for (Square& one : here) one.x += between(-step, step), one.y += between(-step, step);
+    for (std::size_t k = 0; k < entities; ++k) filter.set_update_region(static_cast<Entity>(k), here[k].region());
+    for (std::size_t k = 0; k < subscribers; ++k) filter.set_subscription_region(static_cast<Subscriber>(k), here[entities + k].region());
+    for (const Change& change : filter.match()) known[change.subscriber * entities + change.entity] = change.transition == Transition::entered;
+    std::size_t wrong = 0;
+    for (std::size_t s = 0; s < subscribers; ++s) {
+      const Region mine = here[entities + s].region();
+      for (std::size_t e = 0; e < entities; ++e) {
+        const Region its = here[e].region();
+        wrong += known[s * entities + e] != (its.low_x <= mine.high_x && mine.low_x <= its.high_x && its.low_y <= mine.high_y && mine.low_y <= its.high_y);
+      }
+    }
+    ASSERT_EQ(wrong, 0u) << "at tick " << tick;
+  }
+}
+
 /// A point at (3, 4) is on the circle of radius 5, at any scale and wherever the middle is; the least step that its coordinates know is off it.
 TEST(ChangeJoin, SeesAPointOnACircleAsOneAtEveryScale) {
   for (const Instructions instructions : {Instructions::best, Instructions::scalar})
