@@ -144,6 +144,7 @@ class Interest : public DataDistribution {
 
   // Whose turn it is (interest_turns.cpp).
   void set_tier(Regional& regional, im::Entity entity, std::uint32_t tier);
+  bool never_waits(const DeclaredInterest& interest, ObjectSlot slot);
   void place_in_tier(DeclaredInterest& interest, ObjectSlot slot, bool is_new);
 
   // Subscriptions and what follows from them (interest.cpp).

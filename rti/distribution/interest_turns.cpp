@@ -16,10 +16,20 @@ void Interest::set_tier(Regional& regional, im::Entity entity, std::uint32_t tie
   }
 }
 
+/// In scope without the filter's saying so.
+bool Interest::never_waits(const DeclaredInterest& interest, ObjectSlot slot) {
+  const Use& used = uses_[slot];
+  const std::uint16_t object_class = objects_[slot].object_class;
+  if (used.region == no_region || is_own(interest, slot) || !interest.everywhere.expanded[object_class].is_empty()) return true;
+  return used.region != several && std::ranges::any_of(interest.regionals, [&](const auto& each) {
+           return !each.is_placed && !each.classes.expanded[object_class].is_empty() && overlaps(each, used.region);
+         });
+}
+
 /// The nearest in which some subscription has it; 0 if one hears of it without the filter's saying so.
 void Interest::place_in_tier(DeclaredInterest& interest, ObjectSlot slot, bool is_new) {
   const Use& used = uses_[slot];
-  std::uint32_t tier = used.region == no_region || used.entity == no_entity || is_own(interest, slot) ? 0 : Turns::tier_max;
+  std::uint32_t tier = used.entity == no_entity || never_waits(interest, slot) ? 0 : Turns::tier_max;
   for (const Regional& each : interest.regionals) {
     if (tier == 0 || !(each.is_placed && each.inside.contains(used.entity))) continue;
     std::uint32_t own = 0;
@@ -65,14 +75,15 @@ void Interest::share_out(std::uint32_t federate, const BytesDue& bytes_due) {
     std::size_t bytes = 0;
     bool is_waiting = false;
     for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects) {
-      if (!interest.in_scope.contains(slot)) continue;
+      if (!interest.in_scope.contains(slot) || never_waits(interest, slot)) continue;
       is_waiting |= turns.waiting.contains(slot);
       if (!turns.waiting.contains(slot)) bytes += bytes_due(slot);
     }
     return bytes == 0 && is_waiting ? im::PriorityOrder::not_now : bytes;
   };
-  const auto list = [this](im::Entity entity, Bitmap& objects) {
-    for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects) objects.insert(slot);
+  const auto list = [this, &interest](im::Entity entity, Bitmap& objects) {
+    for (const ObjectSlot slot : regions_[region_of_entity_[entity]].objects)
+      if (!never_waits(interest, slot)) objects.insert(slot);
   };
   for (const Regional& each : interest.regionals) {
     if (!each.is_placed) continue;
