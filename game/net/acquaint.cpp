@@ -15,8 +15,12 @@ void acquaint(const Server& server, rti::FederationExecution& federation) {
   const im::Traits traits = federation.filter().traits();
   if (traits.uses_headings) server.for_each_heading([&](rti::FederateHandle federate, const Vector2& to) { federation.set_federate_heading(federate, {to.x(), to.y()}); });
   if (!traits.uses_flights) return;
-  federation.set_time(server.game().now());
-  for (const auto& [object, flight] : server.flights()) federation.set_object_flight(object, flight);
+  // One clock for all matches, which filters may not see go back.
+  federation.set_time(server.earlier() + server.game().now());
+  for (auto [object, flight] : server.flights()) {
+    flight.time += server.earlier();
+    federation.set_object_flight(object, flight);
+  }
 }
 
 }  // namespace rink::game

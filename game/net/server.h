@@ -55,6 +55,8 @@ class Server : public rti::FederateAmbassador {
 
   rti::Ambassador& ambassador() { return ambassador_; }
   const Game& game() const { return game_; }
+  /// Simulated time of the matches before this one [s].
+  double earlier() const { return earlier_s_; }
 
   /// True from when the RTI has let the server in.
   bool is_joined() const { return publisher_ != nullptr; }
@@ -199,6 +201,7 @@ class Server : public rti::FederateAmbassador {
   std::optional<MatchFlow> flow_;
   std::optional<MatchState> published_match_;
   rti::ObjectHandle match_;
+  double earlier_s_ = 0.0;
   std::uint32_t match_number_ = 0;
   std::vector<KeyLog> finished_;
   double tick_s_;

@@ -52,6 +52,7 @@ void Server::begin_match() {
     if (seat) seat->held = {}, seat->last_key_s = 0.0;
   publisher_->retire_all();
   record_.clear();
+  earlier_s_ += game_.now();
   game_ = Game(*scene_);
 }
 
