@@ -59,6 +59,7 @@ SharedInterest::SharedInterest(const Game& start, const InterestSettings& settin
   for (peer::PeerNumber peer = 0; peer < peer_count(); ++peer)
     if (settings.bats[peer] != no_bat) of_players[peer] = of_bodies[settings.bats[peer]];
   interest_.set_roles(std::move(of_bodies), std::move(of_players));
+  if (bat() != no_bat) seen_bat_ = start.position({bat()});
 }
 
 void SharedInterest::say(peer::PeerNumber to, Traffic about, rti::Bytes content) {
@@ -69,33 +70,36 @@ void SharedInterest::say(peer::PeerNumber to, Traffic about, rti::Bytes content)
 
 void SharedInterest::look_around() {
   if (!interest_.is_selective() || bat() == no_bat) return;
+  bool is_new = false;
   if (const std::optional<physics::Vector2> centre = bat_place()) {
     const double reach = settings_.half_side + settings_.margin;
     const im::Region region{centre->x() - reach, centre->y() - reach, centre->x() + reach, centre->y() + reach};
     const physics::Vector2 before{0.5 * (static_cast<double>(gaze_.low_x) + static_cast<double>(gaze_.high_x)), 0.5 * (static_cast<double>(gaze_.low_y) + static_cast<double>(gaze_.high_y))};
     const bool is_near = gaze_.form == Gaze::Form::region && settings_.margin > 0.0 && (*centre - before).cwiseAbs().maxCoeff() < 0.5 * settings_.margin;
     const Gaze gaze = is_near ? gaze_ : gaze_at(region, interest_.cell_size());
-    if (gaze == gaze_) return;
+    is_new = gaze != gaze_;
     gaze_ = gaze;
   }
   if (gaze_.form == Gaze::Form::away) return;
   const im::Region region = region_of(gaze_, interest_.cell_size());
-  interest_.look(peer_.number(), region);
-  // Cells that are touched count whole.
+  if (is_new) interest_.look(peer_.number(), region);
+  // Zones may have moved though the view has not. Cells that are touched count whole.
   const double grown = extent_max_ + interest_.cell_size();
   for (peer::PeerNumber other = 0; other < peer_count(); ++other) {
     if (other == peer_.number()) continue;
     const bool is_near = interest_.reaches_everywhere() || division_.is_near(other, {region.low_x, region.low_y, region.high_x, region.high_y}, grown);
-    if (is_near) say(other, Traffic::interest, bytes_of(gaze_));
+    if (is_near && (is_new || !is_told_[other])) say(other, Traffic::interest, bytes_of(gaze_));
     if (!is_near && is_told_[other]) say(other, Traffic::interest, bytes_of(Gaze{})), picture_.forget(other);
     is_told_[other] = is_near;
   }
 }
 
-std::optional<physics::Vector2> SharedInterest::bat_place() const {
-  if (places_[bat()] != Place::away) return peer_.world().position({bat()});
+/// Where it is, or was when it was last seen; at first, where it starts.
+std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Belief& belief = picture_.belief(bat());
-  return belief.is_there ? std::optional(belief.position_at(peer_.now())) : std::nullopt;
+  if (places_[bat()] != Place::away) seen_bat_ = peer_.world().position({bat()});
+  else if (belief.is_there) seen_bat_ = belief.position_at(peer_.now());
+  return seen_bat_;
 }
 
 void SharedInterest::finish(std::uint32_t window) {
@@ -146,11 +150,10 @@ void SharedInterest::begin_again(std::span<const peer::PeerNumber> members) {
   for (peer::PeerNumber peer = 0; peer < peer_count(); ++peer) {
     const bool is_there = std::find(members.begin(), members.end(), peer) != members.end();
     if (!is_there && interest_.is_selective()) interest_.look_away(peer);
+    if (!is_there) is_told_[peer] = false;
     interest_.forget_told(peer);
     picture_.forget(peer);
   }
-  gaze_ = {};
-  std::fill(is_told_.begin(), is_told_.end(), false);
   note_places();
 }
 

@@ -78,7 +78,7 @@ class SharedInterest {
   void hand_keys_over();
   bool hear_keys(rti::Bytes content);
   void say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count);
-  std::optional<physics::Vector2> bat_place() const;
+  std::optional<physics::Vector2> bat_place();
   peer::PeerNumber owner_of_bat(peer::PeerNumber player) const;
   peer::PeerNumber peer_count() const { return static_cast<peer::PeerNumber>(settings_.bats.size()); }
 
@@ -92,6 +92,7 @@ class SharedInterest {
   std::vector<Place> places_;                              ///< by body
   std::vector<std::uint32_t> here_;
   Gaze gaze_;
+  std::optional<physics::Vector2> seen_bat_;               ///< where the player's bat was last seen [m]
   std::vector<bool> is_told_;                              ///< by peer: it knows the present gaze, or an earlier one, and must be told of its end
   std::vector<std::uint32_t> heard_, playing_, felt_, told_felt_;  ///< by peer, keys of its player: that came here; and, as the bat's owner, in the window that is played, in final ones, told to it
   std::vector<peer::PeerNumber> handed_to_;                ///< by peer: who got its bat from us
