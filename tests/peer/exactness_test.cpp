@@ -197,7 +197,7 @@ void expect_same_crossing_rows(std::uint64_t first, std::uint64_t last, int wind
 
 TEST(SharedSimulation, EqualsOneEngineWhereRowsCrossAndAreStruckAtOneInstant) { expect_same_crossing_rows(0, 50, 12); }
 
-TEST(SharedSimulation, EqualsOneEngineWhereThousandRowsCrossLong) { expect_same_crossing_rows(100, 1100, 40); }
+TEST(CrossingRowsLong, EqualOneEngineAThousandTimes) { expect_same_crossing_rows(100, 1100, 40); }
 
 /// A thousand scenes in forty parts, which can be run one by one: --gtest_filter='*SharedSimulationLong*/7'. Classes that are rare occur in all parts together.
 class SharedSimulationLong : public testing::TestWithParam<std::uint64_t> {};
