@@ -207,12 +207,12 @@ void Session::adopt(State next) {
   make_room(next.slots);
   if (settings_.is_mirrored && next.has(settings_.number)) greet(next);
   before_ = std::exchange(now_, std::move(next));
-  std::erase_if(sent_, [&](const Sent& sent) { return sent.window + 2 <= now_.window; });
+  std::erase_if(sent_, [&](const Sent& sent) { return sent.step + 2 <= now_.step; });
 }
 
 void Session::press(const Glimpse& seen, const Press& press) {
   peer_->press(seen.owner, press);
-  if (settings_.is_mirrored) sent_.push_back({now_.window + 1, press});
+  if (settings_.is_mirrored) sent_.push_back({now_.step + 1, press});
 }
 
 SessionCounters Session::counters() const {

@@ -95,7 +95,7 @@ class Session {
 
  private:
   struct Sent {
-    std::uint64_t window;  // with whose claims it went
+    std::uint64_t step;  // with whose claims it went
     Press press;
   };
 

@@ -14,8 +14,13 @@ void Session::count_goals(State& next) const {
   if (!settings_.goals) return;
   std::vector<Goal> goals;
   for (const PeerNumber peer : now_.members) {
-    const std::vector<Goal>& told = peer_->verdict_of(peer).goals;
-    goals.insert(goals.end(), told.begin(), told.end());
+    for (const Goal& goal : peer_->verdict_of(peer).goals) {
+      const auto is_of_it = [&](const auto& other) { return other.puck == goal.puck; };
+      const bool can_be = goal.puck < whole_.body_count() && whole_.kind({goal.puck}) == physics::BodyKind::puck && goal.time >= now_.time - 1e-9 && goal.time <= next.time + 1e-9 &&
+                          std::none_of(goals.begin(), goals.end(), is_of_it) && std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
+      if (!can_be) give_up(peer, "peer " + std::to_string(peer) + " tells of a goal that cannot be");
+      goals.push_back(goal);
+    }
   }
   next.scoring.count(std::move(goals), *settings_.goals);
 }

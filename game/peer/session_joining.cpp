@@ -68,7 +68,9 @@ void Session::admit(State& next) const {
   std::erase_if(next.admitted, [&](const Candidate& one) { return !next.has(one.number); });
   std::erase_if(next.candidates, [&](const Candidate& one) { return !stays(one.sponsor) || contains(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number); });
   if (next.window + 2 > settings_.window_count || next.scoring.is_over) next.candidates.clear();
-  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return is_reached(one.number); });
+  // Where a puck comes back at once the others' next stretch has no length, which a newcomer could not know.
+  const bool ends_at_once = next.scoring.next() <= next.time;
+  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return !ends_at_once && is_reached(one.number); });
   if (first != next.candidates.end()) {
     next.members.insert(std::upper_bound(next.members.begin(), next.members.end(), first->number), first->number);
     next.fresh = {first->number};

@@ -185,7 +185,7 @@ void Session::enter(const State& next, std::span<const Arrivals> shares) {
     if (next.has(player.peer))
       for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
   const double time = next.time;
-  peer_->enter(static_cast<std::uint32_t>(next.window), time);
+  peer_->enter(static_cast<std::uint32_t>(next.step), time);  // it counts stretches, of which a window may have several
   for (const Arrivals& share : shares) peer_->take(share);
   for (const Key& key : settings_.keys)
     if (next.time == 0.0 || key.time > time) peer_->press_first(key);
@@ -209,8 +209,8 @@ void Session::press_again() {
   }
   for (Sent& sent : sent_) {
     const auto glimpse = std::find_if(seen.begin(), seen.end(), [&](const Glimpse& one) { return one.bat == sent.press.bat; });
-    if (sent.window <= now_.window || glimpse == seen.end() || glimpse->owner >= now_.slots) continue;
-    sent.window = now_.window + 1;
+    if (sent.step < now_.step || glimpse == seen.end() || glimpse->owner >= now_.slots) continue;
+    sent.step = now_.step + 1;
     peer_->press(glimpse->owner, sent.press);
   }
 }

@@ -83,7 +83,7 @@ void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
     return;
   }
   if (const auto reason = difference(hello.luggage, settings_.luggage)) return refuse(connection, RefusalKind::other, *reason);
-  if (is_playing_) return answer_in_play(connection, hello);
+  if (is_playing_ || !members_.empty()) return answer_in_play(connection, hello);
   if (number_ != 0) {
     say(connection, FrameKind::elsewhere, bytes_of(Elsewhere{guests_[0].place}));
     return;

@@ -29,7 +29,7 @@ BatController controller_of(const Scene& scene, std::uint32_t player) { return B
 /// Tells the user who is gone, and who came.
 class Membership {
  public:
-  Membership(const peer::Session& session, const Manner& manner) : session_(session), manner_(manner), members_(session.members()) {}
+  Membership(const peer::Session& session, const Manner& manner) : session_(session), manner_(manner), members_(session.members()), lost_(session.lost().size()) {}
 
   void tell() {
     if (!manner_.tell || session_.has_left() || (session_.members() == members_ && session_.lost().size() == lost_)) return;
@@ -48,7 +48,7 @@ class Membership {
   const peer::Session& session_;
   const Manner& manner_;
   std::vector<peer::PeerNumber> members_;
-  std::size_t lost_ = 0;
+  std::size_t lost_;
 };
 
 }  // namespace
