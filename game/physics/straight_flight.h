@@ -42,7 +42,7 @@ struct Meeting {
   Real second_time = std::numeric_limits<Real>::infinity();
 };
 
-/// When the two first touch, both taken at the later of their two events; nothing if they never do. May also give nothing if that were after `latest`.
+/// When the two first touch, both taken at the later of their two events; nothing if they never do, or only after `latest`, unless they touch at that event already.
 template <class Real>
 std::optional<Real> meeting_time(const Flight<Real>& a, const Flight<Real>& b, Real latest) {
   const Real time = std::max(a.time, b.time), ahead_a = time - a.time, ahead_b = time - b.time;
@@ -55,7 +55,7 @@ std::optional<Real> meeting_time(const Flight<Real>& a, const Flight<Real>& b, R
 constexpr std::uint32_t flight_max = 32;
 
 /// Whom of `count` discs of `near` (ids in `discs`) the disc `own` meets first, as of meeting_time(); the first of them in `near` if several come at that time. `near` must be
-/// writable three places beyond its end. Meetings after `latest` may be left out.
+/// writable three places beyond its end. Meetings after `latest` are left out, as there.
 template <class Real, class Disc>
 Meeting<Real> first_meeting_singly(const Disc* discs, std::uint32_t own, const std::uint32_t* near, std::uint32_t count, Real latest) {
   Meeting<Real> first;
@@ -94,7 +94,8 @@ Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std
     const __m128d wx = _mm_sub_pd(vx, avx), wy = _mm_sub_pd(vy, avy), reach = _mm_add_pd(a_radius, pair(b.radius, c.radius));
     const __m128d opening = _mm_add_pd(_mm_mul_pd(x, wx), _mm_mul_pd(y, wy)), square = _mm_add_pd(_mm_mul_pd(wx, wx), _mm_mul_pd(wy, wy));
     const __m128d gap = _mm_sub_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)), _mm_mul_pd(reach, reach)), miss = _mm_sub_pd(_mm_mul_pd(x, wy), _mm_mul_pd(y, wx));
-    const __m128d soon = _mm_mul_pd(_mm_mul_pd(both(-2.001), opening), _mm_sub_pd(limit, time));
+    const __m128d speed = _mm_add_pd(_mm_andnot_pd(both(-0.0), wx), _mm_andnot_pd(both(-0.0), wy)), slack = _mm_mul_pd(_mm_mul_pd(both(root_rounding<double>), reach), speed);
+    const __m128d soon = _mm_mul_pd(_mm_add_pd(_mm_mul_pd(both(-2.001), opening), slack), _mm_sub_pd(limit, time));
     const __m128d wide = _mm_mul_pd(_mm_mul_pd(_mm_mul_pd(both(1.001), square), reach), reach);
     const __m128d in_reach = _mm_cmple_pd(_mm_mul_pd(miss, miss), wide), in_time = _mm_or_pd(_mm_cmple_pd(gap, soon), _mm_cmple_pd(gap, _mm_setzero_pd()));
     const int mask = _mm_movemask_pd(_mm_and_pd(_mm_cmplt_pd(opening, _mm_setzero_pd()), _mm_and_pd(in_time, in_reach)));
@@ -118,7 +119,8 @@ Meeting<double> first_meeting_in_pairs(const Disc* discs, std::uint32_t own, std
     const __m128d zero = _mm_setzero_pd(), gap = of(gaps), miss = of(misses), speed_reach = _mm_mul_pd(_mm_sqrt_pd(of(squares)), of(reaches));
     const __m128d discriminant = _mm_mul_pd(_mm_sub_pd(speed_reach, miss), _mm_add_pd(speed_reach, miss));
     const __m128d wait = _mm_div_pd(gap, _mm_add_pd(_mm_sub_pd(zero, of(openings)), _mm_sqrt_pd(discriminant))), is_now = _mm_cmple_pd(gap, zero);
-    const __m128d is_meeting = _mm_or_pd(is_now, _mm_cmpge_pd(discriminant, zero)), time = _mm_add_pd(of(times), _mm_andnot_pd(is_now, wait));
+    // Who passes by has no root, and waits for no number.
+    const __m128d is_meeting = _mm_or_pd(is_now, _mm_cmple_pd(wait, _mm_sub_pd(limit, of(times)))), time = _mm_add_pd(of(times), _mm_andnot_pd(is_now, wait));
     const __m128d found = _mm_or_pd(_mm_and_pd(is_meeting, time), _mm_andnot_pd(is_meeting, never));
     const double time_j = _mm_cvtsd_f64(found), time_k = _mm_cvtsd_f64(_mm_unpackhi_pd(found, found));
     const double earlier = std::min(time_j, time_k), later = std::max(time_j, time_k);
@@ -161,10 +163,10 @@ template <class Disc>
     const __m256d gap = _mm256_sub_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)), _mm256_mul_pd(reach, reach));
     const __m256d miss = _mm256_sub_pd(_mm256_mul_pd(x, wy), _mm256_mul_pd(y, wx)), speed_reach = _mm256_mul_pd(_mm256_sqrt_pd(square), reach);
     const __m256d discriminant = _mm256_mul_pd(_mm256_sub_pd(speed_reach, miss), _mm256_add_pd(speed_reach, miss)), is_now = _mm256_cmp_pd(gap, zero, _CMP_LE_OQ);
-    const __m256d soon = _mm256_mul_pd(_mm256_mul_pd(_mm256_set1_pd(-2.001), opening), _mm256_sub_pd(limit, time));
-    const __m256d in_time = _mm256_or_pd(is_now, _mm256_cmp_pd(gap, soon, _CMP_LE_OQ)), in_reach = _mm256_or_pd(is_now, _mm256_cmp_pd(discriminant, zero, _CMP_GE_OQ));
-    const __m256d is_meeting = _mm256_and_pd(_mm256_cmp_pd(opening, zero, _CMP_LT_OQ), _mm256_and_pd(in_time, in_reach));
+    // Who passes by has no root, and waits for no number.
     const __m256d wait = _mm256_div_pd(gap, _mm256_add_pd(_mm256_sub_pd(zero, opening), _mm256_sqrt_pd(discriminant)));
+    const __m256d in_time = _mm256_or_pd(is_now, _mm256_cmp_pd(wait, _mm256_sub_pd(limit, time), _CMP_LE_OQ));
+    const __m256d is_meeting = _mm256_and_pd(_mm256_cmp_pd(opening, zero, _CMP_LT_OQ), in_time);
     const __m256d found = _mm256_blendv_pd(never, _mm256_add_pd(time, _mm256_andnot_pd(is_now, wait)), is_meeting);
     const __m256d is_earlier = _mm256_cmp_pd(found, first, _CMP_LT_OQ);
     second = _mm256_min_pd(second, _mm256_max_pd(first, found));

@@ -56,6 +56,35 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
   EXPECT_GT(tied, 500);
 }
 
+/// Discs that graze each other at a gap of some roundings: what the best event known happens to be decides nothing but whether the meeting comes too late.
+TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
+  std::mt19937_64 random(8);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  int met = 0, hardly_closing = 0;
+  for (int round = 0; round < 200'000; ++round) {
+    const double angle = uniform(random, 0.0, 6.3), reach = uniform(random, 0.02, 0.1), distance = reach * (1.0 + 1e-16 * static_cast<double>(random() % 20));
+    const double speed = uniform(random, 0.01, 2.0), across = 1e-16 * static_cast<double>(random() % 5), along = random() % 2 == 0 ? speed : -speed;
+    const double x = std::cos(angle), y = std::sin(angle);
+    const std::vector<Flight<double>> discs{{0.5, 0.5, 0.0, 0.0, 0.3, 0.5 * reach}, {0.5 + distance * x, 0.5 + distance * y, -along * y - across * x, along * x - across * y, 0.3, 0.5 * reach}};
+    std::vector<std::uint32_t> near{1, 0, 0, 0};
+    const Meeting<double> ever = first_meeting_singly(discs.data(), 0, near.data(), 1, infinity);
+    const double closing = (discs[1].x - discs[0].x) * discs[1].vx + (discs[1].y - discs[0].y) * discs[1].vy;
+    if (!(ever.time < infinity && ever.time > 0.3 + 1e-12)) continue;
+    ++met, hardly_closing += std::abs(closing) < 1e-17;
+    const double wait = ever.time - 0.3;
+    for (const double share : {0.5, 0.9, 1.1, 2.0, 1e3, 1e9}) {
+      const double latest = 0.3 + share * wait, expected = wait <= latest - 0.3 ? ever.time : infinity;
+      ASSERT_EQ(first_meeting_singly(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
+      ASSERT_EQ(first_meeting(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
+#if defined(__SSE2__)
+      ASSERT_EQ(first_meeting_in_pairs(discs.data(), 0, near.data(), 1, latest).time, expected) << "round " << round << ", share " << share;
+#endif
+    }
+  }
+  EXPECT_GT(met, 50'000);
+  EXPECT_GT(hardly_closing, 1'000);
+}
+
 TEST(FirstMeeting, IsWhereTheDistanceIsTheSumOfTheRadii) {
   std::mt19937_64 random(6);
   for (int round = 0; round < 2'000; ++round) {
