@@ -4,37 +4,18 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "game/players/player.h"
 #include "loadgen/process.h"
+#include "loadgen/process_run.h"
 #include "loadgen/truth/truth.h"
 #include "rti/federation_execution.h"
 
 namespace rink::loadgen {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-
-constexpr milliseconds look_interval{20};
-constexpr double survivor_limit_s = 3.0;  // how long one process may go on after the other has failed
-
-std::string decimal(double number) {
-  std::ostringstream text;
-  text.precision(17);
-  text << number;
-  return text.str();
-}
-
-Clock::time_point after(double seconds) { return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
-
-/// A run that cannot go on; `why` becomes the record's reason.
-struct Failure {
-  std::string why;
-};
-struct Interrupted {};
 
 std::string with_last_words(std::string what, const Process& process) {
   const std::string words = process.last_words();

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "game/net/evidence_lines.h"
@@ -16,27 +15,16 @@
 #include "loadgen/game_plan.h"
 #include "loadgen/peer_judgement.h"
 #include "loadgen/process.h"
+#include "loadgen/process_run.h"
 #include "loadgen/virtual_parts.h"
 
 namespace rink::loadgen {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds look_interval{20};
-constexpr double survivor_limit_s = 3.0;      // how long others may go on after one has failed
 constexpr double late_fraction_max = 0.01;    // as of bots: more late keys, and the plan was not what was played
 constexpr int peer_is_gone = 16;              // rink peer's exit status when it ends for another's sake
-
-std::string decimal(double number) {
-  std::ostringstream text;
-  text.precision(17);
-  text << number;
-  return text.str();
-}
-
-Clock::time_point after(double seconds) { return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
 
 std::uint64_t last_window(const Experiment& experiment, const Cell& cell) {
   return static_cast<std::uint64_t>(std::floor((experiment.warm_up_s + experiment.duration_s) * cell.parameters.tick_rate_hz + 1e-9));

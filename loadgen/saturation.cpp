@@ -8,6 +8,8 @@
 #include <map>
 #include <sstream>
 
+#include "loadgen/run_ending.h"
+
 namespace rink::loadgen {
 namespace {
 
@@ -17,8 +19,6 @@ std::string shown(double number) {
   text << number;
   return text.str();
 }
-
-struct Interrupted {};
 
 /// The votes on one number of clients.
 struct Votes {

@@ -13,17 +13,12 @@
 #include "game/model/key.h"
 #include "game/model/scene.h"
 #include "loadgen/experiment.h"
+#include "loadgen/run_ending.h"
 #include "loadgen/run_record.h"
 #include "rti/transport/network_model.h"
 
 namespace rink::loadgen {
 
-/// The user wants an end.
-struct Interrupted {};
-/// A run that cannot go on; `why` becomes the record's reason.
-struct Failure {
-  std::string why;
-};
 /// The record of `cell`, which `run` fills; nothing if it throws Interrupted. Throws ExperimentError for what of the scene or the key log cannot be read.
 std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell, const std::function<void(RunRecord&)>& run);
 

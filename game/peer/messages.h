@@ -237,11 +237,14 @@ bool exchange(Stream& stream, Newcomer& newcomer) {
 }
 
 template <class Stream>
+bool exchange_numbers(Stream& stream, std::vector<std::uint32_t>& peers) {
+  return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) { return stream.number(peer); });
+}
+
+template <class Stream>
 bool exchange(Stream& stream, Admission& admission) {
-  const auto exchange_numbers = [&](std::vector<std::uint32_t>& peers) {
-    return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) { return stream.number(peer); });
-  };
-  return exchange_list(stream, admission.asking) && admission.asking.size() <= Admission::asking_max && exchange_numbers(admission.reached) && exchange_numbers(admission.withdrawn);
+  return exchange_list(stream, admission.asking) && admission.asking.size() <= Admission::asking_max && exchange_numbers(stream, admission.reached) &&
+         exchange_numbers(stream, admission.withdrawn);
 }
 
 template <class Stream>

@@ -66,11 +66,6 @@ struct Entry {
 };
 
 template <class Stream>
-bool exchange_numbers(Stream& stream, std::vector<PeerNumber>& peers) {
-  return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](PeerNumber& peer) { return stream.number(peer); });
-}
-
-template <class Stream>
 bool exchange(Stream& stream, Candidate& candidate) {
   return stream.numbers(candidate.number, candidate.sponsor, candidate.first_bat) && exchange(stream, candidate.newcomer);
 }

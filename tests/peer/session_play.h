@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -67,6 +68,16 @@ class Play {
     std::stable_sort(scene_.keys.begin(), scene_.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
     find_truth();
     return scene_.world.hash();
+  }
+  /// All who ended have the hash of that. Answers whether anybody did.
+  bool expect_truth_of_logs() {
+    std::optional<std::uint64_t> truth;
+    for (const std::vector<Arrivals>& parts : ends) {
+      if (parts.empty()) continue;
+      if (!truth) truth = replayed(parts);
+      EXPECT_EQ(hash_of(parts), truth);
+    }
+    return truth.has_value();
   }
   std::uint64_t truth() const { return scene_.world.hash(); }
   std::size_t key_count() const { return scene_.keys.size(); }

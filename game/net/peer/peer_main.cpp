@@ -71,13 +71,18 @@ game::SharedGame game_of(const Options& options) {
   return game::SharedGame(scene, recorded);
 }
 
-/// Of a part that was played among those who met, by whichever transport.
-template <class Meeting>
-Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32_t bots, double playing_s) {
+/// Goes last, where readers look for it.
+void add_hash(Json& report, const game::PlayedPart& part) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, part.hash);
+  report["hash"] = hash;
+}
+
+/// Of a part that was played among those who met, by whichever transport; without the hash.
+template <class Meeting>
+Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32_t bots, double playing_s) {
   const peer::PeerCounters& counters = part.counters.peer;
-  Json report{{"peer", meeting.number()},
+  return {{"peer", meeting.number()},
           {"peers", part.members},
           {"time", part.time},
           {"windows", counters.windows},
@@ -107,8 +112,6 @@ Json report_of(const game::PlayedPart& part, const Meeting& meeting, std::uint32
           {"mirror_bytes", part.counters.mirror_bytes},
           {"recovery_bytes", part.counters.recovery_bytes},
           {"entry_bytes", part.counters.entry_bytes}};
-  if (!part.has_left) report["hash"] = hash;
-  return report;
 }
 
 void write_record(const Options& options, const game::SharedGame& shared, const game::PlayedPart& part) {
@@ -184,11 +187,7 @@ game::ExitStatus report(const Options& options, const game::SharedGame& shared, 
   Json report = report_of(part, meeting, meeting.guests()[meeting.number()].bat_count, playing_s);
   if (viewing.viewer) report["view"] = game::report_of(*viewing.viewer);
   report["transport"] = game::report_of(meeting.transported());
-  if (!part.has_left) {
-    const Json hash = report["hash"];  // the last line, where readers look for it
-    report.erase("hash");
-    report["hash"] = hash;
-  }
+  if (!part.has_left) add_hash(report, part);
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));
   else std::printf("%s\n", report.dump(2).c_str());
   const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -270,7 +269,9 @@ game::ExitStatus share_among_ranks(Options options) {
     game::Manner manner;
     manner.players = options.players;
     const game::PlayedPart part = shared.play(options.terms, std::vector<game::Guest>(ranks.count()), mail.number(), mail, manner);
-    report_ranks(report_of(part, mail, 0, now_s() - start_s), mail);
+    Json report = report_of(part, mail, 0, now_s() - start_s);
+    add_hash(report, part);
+    report_ranks(report, mail);
     mail.flush();
     ranks.finish();
     return game::ExitStatus::ok;

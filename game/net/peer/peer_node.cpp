@@ -7,15 +7,6 @@ namespace rink::game {
 
 namespace {
 
-Traffic traffic_of(peer::Subject about) {
-  switch (about) {
-    case peer::Subject::claims: return Traffic::claims;
-    case peer::Subject::verdict: return Traffic::agreement;
-    case peer::Subject::arrivals: break;
-  }
-  return Traffic::halo;
-}
-
 }  // namespace
 
 PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, Send send)

@@ -12,15 +12,6 @@ namespace rink::game {
 
 namespace {
 
-Traffic traffic_of(peer::Subject about) {
-  switch (about) {
-    case peer::Subject::claims: return Traffic::claims;
-    case peer::Subject::verdict: return Traffic::agreement;
-    case peer::Subject::arrivals: break;
-  }
-  return Traffic::halo;
-}
-
 }  // namespace
 
 void RunWitness::CountedMail::send(peer::PeerNumber to, std::vector<std::uint8_t> content) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "game/peer/protocol.h"
+
 namespace rink::game {
 
 /// `halo`: states that are handed over at a window's end. `claims`, `agreement`: what proves a window, and the verdicts on it. `interest`: where players look. `updates`: what they
@@ -11,6 +13,15 @@ namespace rink::game {
 enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys };
 inline constexpr std::size_t traffic_count = 6;
 inline constexpr std::array<const char*, traffic_count> traffic_names{"halo", "claims", "agreement", "interest", "updates", "keys"};
+
+inline Traffic traffic_of(peer::Subject about) {
+  switch (about) {
+    case peer::Subject::claims: return Traffic::claims;
+    case peer::Subject::verdict: return Traffic::agreement;
+    case peer::Subject::arrivals: break;
+  }
+  return Traffic::halo;
+}
 
 using TrafficBytes = std::array<std::uint64_t, traffic_count>;
 
