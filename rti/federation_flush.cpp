@@ -181,17 +181,6 @@ void FederationExecution::Parts::press(std::uint32_t slot, ObjectSlot object) {
   interest.pressing.push_back(object);
 }
 
-void FederationExecution::Parts::append_newest(ObjectSlot object, AttributeSet set, std::optional<UpdatesBlock>& block) {
-  const Stamp stamp = newest_of(object);
-  if (!block || frame_stamp_ != stamp) {
-    block.reset();
-    write_stamp(stamp);
-    block.emplace(scratch_);
-  }
-  const Object& told = objects_[object];
-  block->append(told.object_class, set, told.handle, [&] { objects_.append(object, set, scratch_); });
-}
-
 /// Up to `end` bytes in `scratch_`. Their stamp is their owner's newest, not that of the update which said it: what they are was not changed until then.
 void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::size_t end) {
   FederateInterest& interest = interest_.of(slot);
@@ -214,7 +203,13 @@ void FederationExecution::Parts::write_fresh_states(std::uint32_t slot, std::siz
     if (!object.is_alive) return true;
     const AttributeSet set = interest.told(fresh, object.object_class) & object.valued;
     if (set.is_empty()) return true;
-    append_newest(fresh, set, block);
+    const Stamp stamp = newest_of(fresh);
+    if (!block || frame_stamp_ != stamp) {
+      block.reset();
+      write_stamp(stamp);
+      block.emplace(scratch_);
+    }
+    block->append(object.object_class, set, object.handle, [&] { objects_.append(fresh, set, scratch_); });
     ++counters_.updates_sent;
     return true;
   });

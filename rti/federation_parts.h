@@ -18,7 +18,6 @@
 #include "rti/wire/object_block.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
-#include "rti/wire/updates_block.h"
 #include "rti/objects/object_map.h"
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
@@ -230,8 +229,6 @@ class FederationExecution::Parts {
   void give_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, AttributeSet attributes, Bytes tag);
   void ownership_moved(ObjectSlot object, const Stamp& newest);
   Stamp newest_of(ObjectSlot object) const;
-  /// Its newest state to the scratch, in `block` if that has the same stamp, else in a new one.
-  void append_newest(ObjectSlot object, AttributeSet set, std::optional<UpdatesBlock>& block);
   void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object, AttributeSet attributes, Bytes tag);
   void say_ownership(std::uint32_t slot, ObjectSlot object, OwnershipRequest request, Ownership::Events events, Bytes tag, const Stamp& newest);
   void offer_to_all(std::uint32_t from, ObjectSlot object, AttributeSet attributes, Bytes tag);

@@ -69,7 +69,13 @@ void FederationExecution::Parts::catch_up(std::uint32_t slot) {
     const AttributeSet set = object.is_alive ? interest.told(late, object.object_class) & object.valued & turns.late.of(late) : AttributeSet();
     turns.late.told(late);
     if (set.is_empty()) return;
-    append_newest(late, set, block);
+    const Stamp stamp = newest_of(late);
+    if (!block || frame_stamp_ != stamp) {
+      block.reset();
+      write_stamp(stamp);
+      block.emplace(scratch_);
+    }
+    block->append(object.object_class, set, object.handle, [&] { objects_.append(late, set, scratch_); });
     ++counters_.updates_sent;
     ++counters_.updates_caught_up;
   });
