@@ -1,4 +1,5 @@
 // The scheme `hex`: an entity matters to a subscriber while the hexagon that its centre is in touches the subscriber's region.
+#include <cmath>
 #include <numbers>
 
 #include "im/cells.h"
@@ -13,11 +14,13 @@ constexpr double sqrt3 = std::numbers::sqrt3;
 /// mirror image, the region must come within half a width of the middle. Lengths are quartered, for those of the largest rectangles have no double.
 struct TouchesHexagon {
   double width;
-  bool operator()(const Party& subscriber, const Party& entity) const {
+  /// A change of all coordinates by 1 changes the left side by (1 + sqrt 3) / 4, which is less than 0.7.
+  Judgement operator()(const Party& subscriber, const Party& entity) const {
     const auto gap = [](double middle, double low, double high) { return std::max(0.25 * low - 0.25 * middle, 0.25 * middle - 0.25 * high); };
     const Region middle = centre_of(entity.region);
     const Region& region = subscriber.region;
-    return gap(middle.low_x, region.low_x, region.high_x) + sqrt3 * gap(middle.low_y, region.low_y, region.high_y) <= 0.25 * width;
+    const double away = gap(middle.low_x, region.low_x, region.high_x) + sqrt3 * gap(middle.low_y, region.low_y, region.high_y), reach = 0.25 * width;
+    return {away <= reach, std::abs(away - reach) / 0.7};
   }
 };
 

@@ -11,11 +11,14 @@ struct InTouchedCell {
   double cell_size;
   Region asked = nowhere, touched = nowhere;
 
-  bool operator()(const Party& subscriber, const Party& entity) {
-    if (!(subscriber.region == asked)) asked = subscriber.region, touched = cells_of(asked, world, cell_size);
-    const Region centre = centre_of(entity.region);
+  /// A centre within the rectangle is in one of its cells, for no cell's number falls where the coordinate rises: only near the edges cells matter.
+  Judgement operator()(const Party& subscriber, const Party& entity) {
+    const Region &mine = subscriber.region, centre = centre_of(entity.region);
+    const double depth = std::min(std::min(centre.low_x - mine.low_x, mine.high_x - centre.low_x), std::min(centre.low_y - mine.low_y, mine.high_y - centre.low_y));
+    if (depth > 0.0) return {true, depth};
+    if (!(mine == asked)) asked = mine, touched = cells_of(asked, world, cell_size);
     const double column = cell_of(centre.low_x, world.low_x, cell_size), row = cell_of(centre.low_y, world.low_y, cell_size);
-    return (touched.low_x <= column) & (column <= touched.high_x) & (touched.low_y <= row) & (row <= touched.high_y);
+    return {touched.low_x <= column && column <= touched.high_x && touched.low_y <= row && row <= touched.high_y, 0.0};
   }
 };
 

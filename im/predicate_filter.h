@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,7 +22,7 @@ struct Party {
 };
 
 /// What a predicate may return instead of a bool: the answer, and how far both may come from here, the sum of the greatest changes of any coordinate of either [m], before
-/// it can be another. 0: not known, ask again whenever one has moved.
+/// it can be another, as if nothing were rounded. 0: not known, ask again whenever one has moved.
 struct Judgement {
   bool is_relevant;
   double slack;
@@ -65,15 +66,21 @@ class PredicateFilter : public OverlapFilter {
  private:
   static Judgement judgement(bool is_relevant) { return {is_relevant, 0.0}; }
   static Judgement judgement(const Judgement& judgement) { return judgement; }
+  /// What a few sums and products of the coordinates of `region` may be wrong by, thousands of times over.
+  static double rounding(const Region& region) {
+    return 1e-12 * std::max(std::max(std::abs(region.low_x), std::abs(region.high_x)), std::max(std::abs(region.low_y), std::abs(region.high_y))) + 1e-300;
+  }
 
   bool decide(Subscriber subscriber, Entity entity, bool was, float& rests_until) {
     const double way = entity_ways_[entity] + subscriber_ways_[subscriber];
     if (way < static_cast<double>(rests_until) || (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber))) return was;
     ++counters_.pairs_tested;
-    const Judgement is = judgement(relevant_(Party{subscriber, subscribers_[subscriber].now}, Party{entity, entities_[entity].now}));
+    const Region &mine = subscribers_[subscriber].now, &its = entities_[entity].now;
+    const Judgement is = judgement(relevant_(Party{subscriber, mine}, Party{entity, its}));
+    const double slack = is.slack > 0.0 ? is.slack - rounding(mine) - rounding(its) : 0.0;
     // Rounded down; where nothing is known it is always over.
-    const auto until = static_cast<float>(std::min(way + is.slack, 1e30));
-    rests_until = is.slack > 0.0 ? until - until * 0x1p-20f : -std::numeric_limits<float>::infinity();
+    const auto until = static_cast<float>(std::min(way + slack, 1e30));
+    rests_until = slack > 0.0 ? until - until * 0x1p-20f : -std::numeric_limits<float>::infinity();
     return is.is_relevant;
   }
 

@@ -69,6 +69,32 @@ TEST(PredicateFilter, AsksAboutNobodyWhoRests) {
   EXPECT_EQ(asked, 100u) << "its own pairs";
 }
 
+/// Where all move a little, most pairs are clear of where their answer changes, and are not asked again until they could be there.
+TEST(PredicateFilter, AsksOnlyAboutThoseWhoCouldHaveChangedTheirAnswer) {
+  const auto asked_per_tick = [](const std::string& scheme) {
+    const auto filter = make_filter(scheme, {.world = {0.0, 0.0, 100.0, 100.0}, .cell_size = 3.0, .posts = {{30.0, 30.0, 2.0}, {70.0, 60.0, 2.0}}});
+    Random random(4);
+    std::vector<Region> entities;
+    for (Entity i = 0; i < 2'000; ++i) {
+      const double x = between(random, 0.0, 100.0);
+      entities.push_back(around(x, between(random, 0.0, 100.0), 0.1));
+    }
+    std::uint64_t before = 0;
+    constexpr int ticks = 20;
+    for (int tick = 0; tick <= ticks; ++tick) {
+      const double step = 0.01 * tick;
+      for (Entity i = 0; i < entities.size(); ++i) filter->set_update_region(i, {entities[i].low_x + step, entities[i].low_y - step, entities[i].high_x + step, entities[i].high_y - step});
+      for (Subscriber i = 0; i < 50; ++i) filter->set_subscription_region(i, around(20.0 + 1.2 * i - step, 50.0 + step, 15.0));
+      filter->match();
+      if (tick == 0) before = filter->counters().pairs_tested;
+    }
+    return static_cast<double>(filter->counters().pairs_tested - before) / ticks;
+  };
+  // 50 squares of 900 square metres hold 9,000 of these points.
+  const double engine = asked_per_tick("region");
+  for (const char* scheme : {"hybrid", "hex", "diamond", "cone", "sight"}) EXPECT_LT(asked_per_tick(scheme) - engine, 1'800.0) << scheme;
+}
+
 TEST(PredicateFilter, KnowsWhoIsAsking) {
   const auto filter = make_predicate_filter({}, [](const Party& subscriber, const Party& entity) { return subscriber.id % 2 == entity.id % 2; });
   for (std::uint32_t id = 0; id < 2; ++id) filter->set_subscription_region(id, {}), filter->set_update_region(id, {});
