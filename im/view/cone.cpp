@@ -94,8 +94,9 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     if (turn < 1e-6) turned(subscriber, turn * (std::abs(motion.now.high_x - motion.now.low_x) + std::abs(motion.now.high_y - motion.now.low_y)));
     else turned(subscriber);
   }
-  /// At least the angle, for small ones; infinite where there is none.
-  static double angle_between(const Heading& a, const Heading& b) {
+  /// At least the angle, for small ones; infinite where there is none. Of lengths near 1, for the products of the longest would be infinite and those of the shortest nothing.
+  static double angle_between(const Heading& one, const Heading& other) {
+    const Heading a = scaled(one), b = scaled(other);
     const double cross = a.x * b.y - a.y * b.x, dot = a.x * b.x + a.y * b.y;
     return dot > 0.0 ? 2.0 * std::abs(cross) / dot + 1e-12 : std::numeric_limits<double>::infinity();
   }

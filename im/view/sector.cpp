@@ -19,17 +19,6 @@ Heading turned(double angle_deg) {
   return {std::cos(angle_deg * degree), std::sin(angle_deg * degree)};
 }
 
-/// The same direction at a length near 1; a component that is 2^-100 of the other is none.
-Heading scaled(Heading heading) {
-  const double longer = std::max(std::abs(heading.x), std::abs(heading.y));
-  if (longer == 0.0) return heading;
-  const int exponent = std::ilogb(longer);
-  heading = {std::scalbn(heading.x, -exponent), std::scalbn(heading.y, -exponent)};
-  for (double* component : {&heading.x, &heading.y})
-    if (std::abs(*component) < 0x1p-100) *component = 0.0;
-  return heading;
-}
-
 /// A point as seen from the eye: a difference that is not rounded yet.
 struct Seen {
   double x, eye_x, y, eye_y;
@@ -94,6 +83,16 @@ double least_left_of(const Heading& line, double low_x, double low_y, double hig
 }
 
 }  // namespace
+
+Heading scaled(Heading heading) {
+  const double longer = std::max(std::abs(heading.x), std::abs(heading.y));
+  if (longer == 0.0) return heading;
+  const int exponent = std::ilogb(longer);
+  heading = {std::scalbn(heading.x, -exponent), std::scalbn(heading.y, -exponent)};
+  for (double* component : {&heading.x, &heading.y})
+    if (std::abs(*component) < 0x1p-100) *component = 0.0;
+  return heading;
+}
 
 /// A box is apart from a sector by its distance from the disc or from one of the two half planes whose common part the wedge is (or, if it is wider than half, from both); it
 /// touches as long as one of its points, the nearest or the middle, is inside.

@@ -15,6 +15,9 @@ struct Eye {
   explicit Eye(const Region& region) : x(plain(0.5 * region.low_x + 0.5 * region.high_x)), y(plain(0.5 * region.low_y + 0.5 * region.high_y)) {}
 };
 
+/// The same direction at a length near 1; a component that is 2^-100 of the other is none.
+Heading scaled(Heading heading);
+
 /// All directions that differ from one by at most a half angle. Its two edges are what rotation gives in doubles; they belong to it, and from there on everything is exact.
 class Wedge {
  public:

@@ -93,6 +93,20 @@ TEST(ConeScheme, IsNetAndCostsNothingWhereNobodyTurns) {
   EXPECT_THAT(match(*filter), IsEmpty());
 }
 
+/// Who was told to look along the longest vector there is, then left alone, and then goes another way: what rested in view is out of it.
+TEST(ConeScheme, SeesATurnWhateverTheLengthOfTheHeading) {
+  for (const double length : {1e308, 1.0, 1e-160, 5e-324}) {
+    const auto filter = make_filter("cone", {.world = {0.0, 0.0, 1000.0, 1000.0}, .half_angle_deg = 45.0});
+    filter->set_subscription_region(0, {300.0, 300.0, 700.0, 700.0});
+    filter->set_heading(0, {length, 0.0});
+    filter->set_update_region(0, point(586.6, 450.0));  // 30 degrees to the right
+    EXPECT_THAT(entered(*filter), ElementsAre(0)) << length;
+    filter->set_heading(0, {});
+    filter->set_subscription_region(0, {301.9, 300.8, 701.9, 700.8});  // 23 degrees to the left
+    EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::left})) << length;
+  }
+}
+
 TEST(ConeScheme, HasTheShareOfTheDiscThatItsAngleHas) {
   Random random(5);
   std::vector<Region> places;
