@@ -5,6 +5,11 @@
 
 namespace rink::im {
 
+/// Below so many a job is done alone: regions of a match in which all are looked at, and movers of one in which few move.
+struct WorthSharing {
+  std::size_t regions = 8192, movers = 2048;
+};
+
 class Worker {
  public:
   virtual ~Worker() = default;
@@ -12,10 +17,14 @@ class Worker {
   virtual void start(void (*task)(void* context), void* context) = 0;
   /// Returns when the task has ended; all that it wrote can be read then.
   virtual void wait() = 0;
+
+  /// For one that sleeps in between; whoever wakes faster may say less.
+  WorthSharing worth_sharing;
 };
 
-/// Waking somebody takes 10 to 60 us, so jobs below a fifth of a millisecond are done alone: everyone at 25 ns a region, a mover at 100.
-inline constexpr std::size_t shared_regions_min = 8192, shared_movers_min = 2048;
+/// `worker`, if there is one and so many are worth it.
+inline Worker* for_regions(Worker* worker, std::size_t count) { return worker != nullptr && count >= worker->worth_sharing.regions ? worker : nullptr; }
+inline Worker* for_movers(Worker* worker, std::size_t count) { return worker != nullptr && count >= worker->worth_sharing.movers ? worker : nullptr; }
 
 /// Runs `own` here and `other` by `worker`, or one after the other without one. Neither may write what the other reads.
 template <class Own, class Other>

@@ -35,7 +35,7 @@ void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIn
 void BatchMatcher::match(std::span<const Region> updates, std::span<const Region> subscriptions) {
   rejections_.clear(), other_rejections_.clear();
   join_.clear();
-  Worker* const worker = updates.size() + subscriptions.size() < shared_regions_min ? nullptr : worker_;
+  Worker* const worker = for_regions(worker_, updates.size() + subscriptions.size());
   join_.share_with(worker);
   run_both(worker, [&] { stage(updates, Subject::update_region, updates_, rejections_); }, [&] { stage(subscriptions, Subject::subscription_region, subscriptions_, other_rejections_); });
   rejections_.insert(rejections_.end(), other_rejections_.begin(), other_rejections_.end());

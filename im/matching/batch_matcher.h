@@ -20,7 +20,7 @@ class BatchMatcher {
   /// Where most regions are [m]; others are served too, only slower. A bad one is rejected and the one before stays; it begins as the unit square.
   std::optional<Rejection> set_world(const Region& world);
 
-  /// Who takes half where there is enough to match (`shared_regions_min`); null, as at first: nobody. It must outlive the matcher. Pairs and their order are the same.
+  /// Who takes half where there is enough to match (`WorthSharing`); null, as at first: nobody. It must outlive the matcher. Pairs and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
   /// A region's id is its place. A bad region is left out and rejected; it overlaps nothing.

@@ -111,7 +111,7 @@ void ChangeJoin::place(const Side& side) {
 }
 
 void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
-  Worker* const worker = entities.regions.size() + subscribers.regions.size() < shared_regions_min ? nullptr : worker_;
+  Worker* const worker = for_regions(worker_, entities.regions.size() + subscribers.regions.size());
   const bool is_ordered = subscribers.regions.size() > unordered_subscriber_max;
   join_.share_with(worker);
   const auto index_entities = [&] { place(entities); };
@@ -147,7 +147,7 @@ void ChangeJoin::ask_resting(const Side& askers, const Side& asked, Question que
   probes_.begin(world_);
   for (const std::uint32_t id : askers.moved) probes_.add(id, askers.regions[id]);
   const Exact exact{askers.regions, asked.regions};
-  join_.share_with(askers.moved.size() < shared_movers_min ? nullptr : worker_);
+  join_.share_with(for_movers(worker_, askers.moved.size()));
   join_.clear();
   join_.add_changes(live, probes_, {question != Question::rectangles || !(probes_.is_exact() && live.is_exact()), resting_judge(question), &exact}, question);
   pairs_tested_ += join_.candidate_count();
