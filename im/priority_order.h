@@ -1,6 +1,7 @@
 // Who of those that are relevant to a subscriber is to be sent first, when not all fit.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,7 +45,7 @@ class PriorityOrder {
   template <class BytesOf>
   std::span<const Item> fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of);
 
-  /// Those for which the last `fill` had no room. Valid until the next call.
+  /// Those for which the last `fill` had no room, in no order. Valid until the next call.
   std::span<const Item> put_off() const { return put_off_.span(); }
 
   const PriorityCounts& counts() const { return counts_; }
@@ -68,11 +69,17 @@ class PriorityOrder {
     Item item;
     std::size_t bytes;
   };
-  /// Into `ranked_`, states first; returns how many states.
+  /// Where a subscriber is: half the middle of its region, and half its shorter side.
+  struct Watch {
+    double x, y, reach;
+    explicit Watch(const Region& own);
+  };
+  static bool is_less_urgent(const Ranked& a, const Ranked& b) { return a.urgency != b.urgency ? a.urgency < b.urgency : a.item.entity > b.item.entity; }
+  /// Into `ranked_`, states first, else in no order; returns how many states.
   template <class BytesOf>
   std::size_t rank(Subscriber subscriber, const BytesOf& bytes_of);
-  double urgency(const Region& own, const Entry& entry) const;
-  std::size_t sort();
+  double urgency(const Watch& watch, const Entry& entry) const;
+  std::size_t gather_states();
   static void place(std::vector<Region>& places, std::uint32_t id, const Region& region);
   Entry* find(Subscriber subscriber, Entity entity);
 
@@ -90,39 +97,41 @@ std::size_t PriorityOrder::rank(Subscriber subscriber, const BytesOf& bytes_of) 
   ranked_.clear();
   if (subscriber >= entries_.size()) return 0;
   Buffer<Entry>& entries = entries_[subscriber];
+  const Watch watch(subscribers_[subscriber]);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     Entry& entry = entries.data()[i];
     const Item item{entry.entity, entry.is_state};
     const std::size_t bytes = bytes_of(item);
     if (bytes == not_now) continue;
-    if (bytes > 0) ranked_.push_back({urgency(subscribers_[subscriber], entry), item, bytes});
+    if (bytes > 0) ranked_.push_back({urgency(watch, entry), item, bytes});
     else entry.is_state = false, entry.sent = now_;
   }
-  return sort();
+  return gather_states();
 }
 
+/// Few of many fit, so they are taken from heaps and the rest is never sorted: half of the time of a fill that takes 25 of 360.
 template <class BytesOf>
 std::span<const PriorityOrder::Item> PriorityOrder::fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of) {
   filled_.clear();
   put_off_.clear();
-  std::size_t used = 0, state = 0;
-  const std::size_t states = rank(subscriber, bytes_of), all = ranked_.size();
-  std::size_t update = states;
-  const auto take = [&](std::size_t& next, std::size_t end) {
-    for (; next < end && used < budget; ++next) {
-      const Ranked& each = ranked_.data()[next];
-      if (used + each.bytes > budget && !filled_.empty()) return;
-      used += each.bytes;
-      filled_.push_back(each.item);
-      sent(subscriber, each.item, each.bytes);
+  std::size_t used = 0;
+  const std::size_t states = rank(subscriber, bytes_of);
+  Ranked *const first_state = ranked_.data(), *const first_update = first_state + states, *const last = first_state + ranked_.size();
+  const auto take = [&](Ranked* first, Ranked* end) {
+    std::make_heap(first, end, is_less_urgent);
+    for (; first != end && used < budget; --end) {
+      if (used + first->bytes > budget && !filled_.empty()) break;
+      used += first->bytes;
+      filled_.push_back(first->item);
+      sent(subscriber, first->item, first->bytes);
+      std::pop_heap(first, end, is_less_urgent);
     }
+    for (; first != end; ++first) put_off_.push_back(first->item);
   };
   const bool are_updates_first = now_ % 2 == 0;
-  if (are_updates_first) take(update, all);
-  take(state, states);
-  if (!are_updates_first) take(update, all);
-  for (; state < states; ++state) put_off_.push_back(ranked_.data()[state].item);
-  for (; update < all; ++update) put_off_.push_back(ranked_.data()[update].item);
+  if (are_updates_first) take(first_update, last);
+  take(first_state, first_update);
+  if (!are_updates_first) take(first_update, last);
   counts_.put_off += put_off_.size();
   return filled_.span();
 }

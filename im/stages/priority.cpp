@@ -93,28 +93,30 @@ void PriorityOrder::take(std::span<const Change> changes) {
   }
 }
 
-double PriorityOrder::urgency(const Region& own, const Entry& entry) const {
-  // Halved, as everywhere: the differences of the largest numbers have no double.
-  const double reach = std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y);
+// Halved, as everywhere: the differences of the largest numbers have no double.
+PriorityOrder::Watch::Watch(const Region& own)
+    : x(0.25 * own.low_x + 0.25 * own.high_x), y(0.25 * own.low_y + 0.25 * own.high_y), reach(std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y)) {}
+
+double PriorityOrder::urgency(const Watch& watch, const Entry& entry) const {
   const Region& at = entities_[entry.entity];
-  const double x = (0.25 * at.low_x + 0.25 * at.high_x) - (0.25 * own.low_x + 0.25 * own.high_x), y = (0.25 * at.low_y + 0.25 * at.high_y) - (0.25 * own.low_y + 0.25 * own.high_y);
-  const double distance = 2.0 * std::sqrt(x * x + y * y), weight = reach > 0.0 ? 1.0 / (1.0 + std::min(distance / reach, 1e9)) : 1.0;
+  const double x = (0.25 * at.low_x + 0.25 * at.high_x) - watch.x, y = (0.25 * at.low_y + 0.25 * at.high_y) - watch.y;
+  const double distance = 2.0 * std::sqrt(x * x + y * y), weight = watch.reach > 0.0 ? 1.0 / (1.0 + std::min(distance / watch.reach, 1e9)) : 1.0;
   const double waited = static_cast<double>(now_ - entry.sent) + (entry.is_state ? 1.0 : 0.0);
-  return std::ldexp(waited * weight, -entry.tier);
+  constexpr unsigned tier_max = 31;  // there are at most 15
+  return waited * weight / static_cast<double>(1u << std::min<unsigned>(entry.tier, tier_max));
 }
 
-std::size_t PriorityOrder::sort() {
+std::size_t PriorityOrder::gather_states() {
   Ranked* const end = ranked_.data() + ranked_.size();
-  std::sort(ranked_.data(), end, [](const Ranked& a, const Ranked& b) {
-    if (a.item.is_state != b.item.is_state) return a.item.is_state;
-    return a.urgency != b.urgency ? a.urgency > b.urgency : a.item.entity < b.item.entity;
-  });
-  return static_cast<std::size_t>(std::find_if(ranked_.data(), end, [](const Ranked& each) { return !each.item.is_state; }) - ranked_.data());
+  return static_cast<std::size_t>(std::partition(ranked_.data(), end, [](const Ranked& each) { return each.item.is_state; }) - ranked_.data());
 }
 
 std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber) {
   items_.clear();
-  rank(subscriber, [](const Item&) { return std::size_t{1}; });
+  const std::size_t states = rank(subscriber, [](const Item&) { return std::size_t{1}; });
+  const auto is_more_urgent = [](const Ranked& a, const Ranked& b) { return is_less_urgent(b, a); };
+  std::sort(ranked_.data(), ranked_.data() + states, is_more_urgent);
+  std::sort(ranked_.data() + states, ranked_.data() + ranked_.size(), is_more_urgent);
   for (const Ranked& each : ranked_.span()) items_.push_back(each.item);
   return items_.span();
 }

@@ -219,6 +219,34 @@ TEST(Priority, SendsTheStateOfWhoEnteredFirstAndStarvesNobody) {
   EXPECT_FALSE(make_filter("region", hundred)->priority());
 }
 
+/// What fits is what a whole sort would put in front, states and updates in turns, and what does not is all the rest.
+TEST(Priority, FillsWithTheMostUrgentAndPutsOffAllOthers) {
+  const auto filter = make_filter("region with tiers(at=0.4) with priority", hundred);
+  PriorityOrder& order = *filter->priority();
+  Random random(8);
+  constexpr std::size_t item_bytes = 10;
+  for (int match = 1; match <= 60; ++match) {
+    filter->set_subscription_region(0, around(50.0, 50.0, 20.0));
+    for (Entity entity = 0; entity < 200; ++entity) {
+      const double x = between(random, 20.0, 80.0);
+      if (match == 1 || between(random, 0.0, 1.0) < 0.1) filter->set_update_region(entity, around(x, between(random, 20.0, 80.0), 0.1));
+    }
+    filter->match();
+    std::vector<Entity> states, updates, expected, filled, put_off;
+    for (const PriorityOrder::Item& item : order.order(0)) (item.is_state ? states : updates).push_back(item.entity);
+    std::size_t room = 25;
+    for (const auto* list : {match % 2 == 0 ? &updates : &states, match % 2 == 0 ? &states : &updates})
+      for (std::size_t i = 0; i < list->size() && room > 0; ++i, --room) expected.push_back((*list)[i]);
+    for (const PriorityOrder::Item& item : order.fill(0, 25 * item_bytes, [](const auto&) { return item_bytes; })) filled.push_back(item.entity);
+    for (const PriorityOrder::Item& item : order.put_off()) put_off.push_back(item.entity);
+    ASSERT_EQ(filled, expected) << "match " << match;
+    std::vector<Entity> all(filled), there(states);
+    all.insert(all.end(), put_off.begin(), put_off.end());
+    there.insert(there.end(), updates.begin(), updates.end());
+    ASSERT_THAT(all, testing::UnorderedElementsAreArray(there)) << "match " << match;
+  }
+}
+
 TEST(Priority, TakesOneThatAloneExceedsTheBudget) {
   const auto filter = make_filter("region with tiers(at=0.5) with priority", hundred);
   filter->set_subscription_region(0, {0.0, 0.0, 20.0, 20.0});
