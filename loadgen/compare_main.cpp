@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "game/net/flags.h"
+#include "im/filter.h"
+#include "im/usage.h"
 #include "loadgen/assertion.h"
 #include "loadgen/build_facts.h"
 #include "loadgen/campaign.h"
@@ -40,6 +42,21 @@ Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does
              printed (the folder is complete); 129 the terminal went away; 130 interrupted (what was measured is kept).
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
+
+/// What an experiment may compare, each with its parameters.
+std::string schemes_and_stages() {
+  const auto lines = [](const char* title, const std::vector<std::string>& names) {
+    std::string text = title, line;
+    for (const std::string& name : names) {
+      const std::string usage = rink::im::usage_of(name);
+      if (line.size() + usage.size() > 110) text += line + "\n", line.clear();
+      line += "  " + usage;
+    }
+    return text + line + "\n";
+  };
+  return lines("\nSchemes, also put together with and, or, not and parentheses:\n", rink::im::filter_names()) +
+         lines("\nStages, each behind any of them after with, as in \"aura and not sight with hysteresis(margin=0.3)\" (docs/im.md):\n", rink::im::stage_names());
+}
 
 constexpr std::size_t files_besides_clients = 64;
 
@@ -233,7 +250,7 @@ int main(int argc, char** argv) {
   app.add_option("--programs", options.programs, "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(app, options.saturate);
   for (const char* flag : {"--resume", "--dry-run", "--assert"}) app.get_option("--saturate")->excludes(app.get_option(flag));
-  app.footer(footer);
+  app.footer(schemes_and_stages() + footer);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,6 +12,7 @@
 #include "im/composition/schemes.h"
 #include "im/matching/rejection.h"
 #include "im/stages/stages.h"
+#include "im/usage.h"
 
 namespace rink::im {
 namespace {
@@ -193,6 +194,16 @@ std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterS
   own.cell_size = expression.parameter("cell_size", settings.cell_size);
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
   return make_scheme(expression.name, own);
+}
+
+std::string usage_of(const std::string& name) {
+  std::string parameters;
+  for (const Key& key : keys) {
+    if (name != key.owner) continue;
+    const std::string one = std::string(key.key) + "=" + shown(key.low) + ".." + shown(key.high) + (key.is_list ? " ..." : "");
+    parameters += (parameters.empty() ? "" : " ") + (key.is_needed ? one : "[" + one + "]");
+  }
+  return parameters.empty() ? name : name + "(" + parameters + ")";
 }
 
 std::vector<std::string> stage_names() { return {stages.begin(), stages.end()}; }

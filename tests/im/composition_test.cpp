@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "im/usage.h"
 #include "tests/im/long_play.h"
 
 namespace rink::im {
@@ -160,6 +161,13 @@ TEST(Expression, IsRefusedByNameWhereItIsWrong) {
   EXPECT_EQ(complaint(many), "");
   EXPECT_EQ(complaint(many + " or aura"), "more than 15 schemes in one combination");
   for (const std::string& name : filter_names()) EXPECT_EQ(complaint(name), "");
+}
+
+TEST(Expression, IsTaughtByNameWithItsParameters) {
+  EXPECT_EQ(usage_of("aura"), "aura");
+  EXPECT_EQ(usage_of("cone"), "cone([half_angle=0..180])");
+  EXPECT_EQ(usage_of("tiers"), "tiers(at=0.000001..1 ...)");
+  EXPECT_EQ(usage_of("swept"), "swept([disc=0..1] [drag=0..1000000] horizon=0..1000000)");
 }
 
 TEST(Settings, AreRefusedByNameWhereTheyAreWrong) {

@@ -8,7 +8,10 @@
 #include <fstream>
 
 #include "canned_reports.h"
+#include "im/filter.h"
+#include "im/usage.h"
 #include "loadgen/process.h"
+#include "tests/command.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -56,6 +59,17 @@ class CompareCommandTest : public testing::Test {
   test::TemporaryFolder folder_{"compare"};
   std::string errors_;
 };
+
+class CompareHelp : public test::CommandTest {
+ protected:
+  CompareHelp() : CommandTest("compare-help") {}
+};
+
+TEST_F(CompareHelp, NamesEverySchemeAndStageWithItsParameters) {
+  EXPECT_EQ(run("compare --help"), 0) << said_;
+  for (const auto& names : {im::filter_names(), im::stage_names()})
+    for (const std::string& name : names) EXPECT_THAT(printed_, HasSubstr("  " + im::usage_of(name)));
+}
 
 TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   EXPECT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
