@@ -59,6 +59,9 @@ Exhibit relevance_exhibit(const Findings& findings);
 void add_bytes_against_relevance(Exhibit& exhibit, const Findings& findings);
 /// What each parameter does that the experiment lists several values of.
 Exhibit sweep_exhibit(const Findings& findings);
+/// Whether some of the compared expressions differ in their numbers alone, and bytes against error and recall with a curve for each form of them.
+bool has_expressions_of_one_form(const Findings& findings);
+Exhibit stages_exhibit(const Findings& findings);
 /// Whole curves of latency percentiles.
 Exhibit latency_exhibit(const Findings& findings);
 /// What a tick costs, by part.

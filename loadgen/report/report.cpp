@@ -99,6 +99,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   page.add("gains", "Bytes against error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
   page.add("sweeps", "Parameters", sweep_exhibit(findings));
+  if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_exhibit(findings));
   page.add("latency", "Latency", latency_exhibit(findings));
   page.add("cost", "Cost of a tick", cost_exhibit(findings));
   page.add("replications", "Replications", replication_exhibit(findings));

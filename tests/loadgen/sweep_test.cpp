@@ -71,6 +71,31 @@ TEST(Sweep, EachSchemeIsACurveAlongTheParameterInAscendingOrder) {
   EXPECT_THAT(report.html, Not(HasSubstr("by ticks per second")));
 }
 
+/// Expressions that differ in their numbers alone are a curve, in the experiment's order; whatever else they are named stands as it is.
+TEST(Stages, ExpressionsOfOneFormAreACurveOfBytesAgainstErrorAndRecall) {
+  Experiment experiment = small_experiment();
+  experiment.schemes = {"aura", "aura with tiers(at=0.7)", "aura with tiers(at=0.3 at=0.6)", "aura with priority(budget=400)", "aura with priority(budget=100)", "grid(cell_size=2) with priority(budget=100)"};
+  experiment.clients = {5, 10};
+  experiment.seeds = {1, 2};
+  std::vector<RunRecord> runs = runs_of(experiment);
+  for (RunRecord& run : runs) run.truth.displayed_error_mm.rms = 3.0, run.truth.delivered_recall = 0.9;
+  const Report report = report_of(experiment, runs, {});
+  const PlotTable& table = table_called(report, "stages");
+  const auto column = [&table](const std::string& name) { return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) - table.columns.begin()); };
+  std::vector<std::string> forms, numbers;
+  for (const auto& row : table.rows) {
+    ASSERT_EQ(row.size(), table.columns.size());
+    forms.push_back(row[column("form")]), numbers.push_back(row[column("numbers")]);
+    EXPECT_EQ(row[column("displayed_error_mm_rms")], "3");
+    EXPECT_EQ(row[column("clients")], "10") << "at the largest number of clients";
+  }
+  EXPECT_THAT(forms, testing::ElementsAre("aura", "aura with tiers(at)", "aura with tiers(at)", "aura with priority(budget)", "aura with priority(budget)", "grid(cell_size) with priority(budget)"));
+  EXPECT_THAT(numbers, testing::ElementsAre("", "0.7", "0.3 0.6", "400", "100", "2 100"));
+  EXPECT_THAT(report.html, AllOf(HasSubstr("Bytes against displayed error"), HasSubstr("Bytes against delivered recall")));
+  const Experiment plain = sweep_of_cells();
+  EXPECT_THAT(report_of(plain, runs_of(plain), {}).html, Not(HasSubstr("Bytes against delivered recall"))) << "nothing there differs in its numbers alone";
+}
+
 TEST(Sweep, ASchemeThatGivesItsOwnSizeOfCellsRunsOnce) {
   Experiment experiment = sweep_of_cells();
   experiment.schemes = {"grid(cell_size=2)", "grid(cell_size=2) or grid"};
