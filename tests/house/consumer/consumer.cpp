@@ -1,7 +1,10 @@
 // Uses an installed Rink as any other project would: a filter decides who sees whom, an object model is read and asked.
+#include <cmath>
 #include <cstdio>
 
+#include "im/checked_filter.h"
 #include "im/filter.h"
+#include "im/predicate_filter.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -30,6 +33,22 @@ bool touching_regions_overlap() {
   filter->set_update_region(7, {5.0, 5.0, 6.0, 6.0});
   const auto changes = filter->match();
   return changes.size() == 1 && changes[0].entity == 7 && changes[0].transition == rink::im::Transition::entered;
+}
+
+/// A scheme of its own: ships are seen a third as far ahead as to the sides.
+bool is_abeam(const rink::im::Party& lookout, const rink::im::Party& ship) {
+  const double x = 0.5 * (lookout.region.low_x + lookout.region.high_x);
+  return std::abs(0.5 * (ship.region.low_x + ship.region.high_x) - x) <= (lookout.region.high_x - lookout.region.low_x) / 6.0;
+}
+
+bool a_predicate_is_a_whole_scheme() {
+  rink::im::CheckedFilter filter(rink::im::make_predicate_filter({.world = {0.0, 0.0, 20.0, 20.0}}, &is_abeam), 100);
+  filter.add_subscriber(0, {4.0, 4.0, 16.0, 16.0});
+  filter.add_entity(1, {11.0, 15.0, 12.0, 16.0});
+  filter.add_entity(2, {15.0, 10.0, 16.0, 11.0});
+  const auto rejection = filter.add_entity(3, {1.0, 1.0, 0.0, 2.0});
+  const auto changes = filter.match();
+  return changes.size() == 1 && changes[0].entity == 1 && rejection && rink::im::describe(*rejection) == "update region 3 is inverted: its low exceeds its high";
 }
 
 bool model_has_a_ship_with_a_position() {
@@ -87,6 +106,7 @@ bool a_lookout_discovers_a_ship() {
 
 int main() {
   if (!touching_regions_overlap()) return std::puts("touching regions were missed"), 1;
+  if (!a_predicate_is_a_whole_scheme()) return std::puts("the predicate was not heard"), 1;
   if (!a_lookout_discovers_a_ship()) return std::puts("the ship was not discovered"), 1;
   if (!model_has_a_ship_with_a_position()) return std::puts("the object model was misread"), 1;
   return 0;
