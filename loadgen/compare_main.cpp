@@ -9,8 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "game/net/flags.h"
-#include "im/filter.h"
-#include "im/usage.h"
 #include "loadgen/assertion.h"
 #include "loadgen/build_facts.h"
 #include "loadgen/campaign.h"
@@ -26,6 +24,7 @@
 #include "loadgen/saturate_command.h"
 #include "loadgen/server_cores.h"
 #include "loadgen/table.h"
+#include "rti/schemes.h"
 
 namespace {
 
