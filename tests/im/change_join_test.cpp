@@ -208,9 +208,17 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
 TEST(ChangeJoinLong, DriftsThroughEveryLayout) {
   for (std::uint64_t seed = 10; seed < 40; ++seed)
     for (const Layout& layout : layouts) {
-      // Brute force is what takes the time: many are followed under every tenth seed alone.
-      const std::uint32_t share = seed % 10 == 0 ? 1 : 3;
+      // Brute force is what takes the time: many are followed under every fifth seed alone.
+      const std::uint32_t share = seed % 5 == 0 ? 1 : 3;
       for (const Shape shape : {Shape::rectangle, Shape::disc}) drift(layout, seed, 700 / share, 300 / share, 100, shape);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(ChangeJoinLong, FollowsFewThroughEveryShareOfMoversOverThousandsOfSeeds) {
+  for (std::uint64_t seed = 1000; seed < 4000; ++seed)
+    for (const Layout& layout : layouts) {
+      follow(layout, seed, 40, 20, 1, seed % 2 == 0 ? Shape::rectangle : Shape::disc);
       if (testing::Test::HasFatalFailure()) return;
     }
 }

@@ -42,16 +42,22 @@ Observer grown(const Observer& observer, double margin) {
   return result;
 }
 
+void play_hysteresis(const std::string& scheme, std::uint64_t seed, int matches) {
+  SCOPED_TRACE(scheme);
+  const FilterSettings settings = settings_for(seed);
+  const Relevant enters = rule(scheme, settings);
+  play(seed, matches, [&] {
+    return Judged(make_filter(scheme + " with hysteresis(margin=0.75)", settings), enters, [enters](const Observer& s, const Body& u) { return enters(grown(s, 0.75), u); });
+  });
+}
+
 TEST(Hysteresis, KeepsWhoIsInUntilHeIsOutOfTheLargerRegion) {
   for (const std::string scheme : behind)
-    for (std::uint64_t seed = 1; seed <= 4 && !HasFatalFailure(); ++seed) {
-      SCOPED_TRACE(scheme);
-      const FilterSettings settings = settings_for(seed);
-      const Relevant enters = rule(scheme, settings);
-      play(seed, 12, [&] {
-        return Judged(make_filter(scheme + " with hysteresis(margin=0.75)", settings), enters, [enters](const Observer& s, const Body& u) { return enters(grown(s, 0.75), u); });
-      });
-    }
+    for (std::uint64_t seed = 1; seed <= 4 && !HasFatalFailure(); ++seed) play_hysteresis(scheme, seed, 12);
+}
+
+TEST(HysteresisLong, KeepsWhoIsInUntilHeIsOutOfTheLargerRegionOverThousandsOfSeeds) {
+  for (std::uint64_t seed = 1; seed <= 2000 && !HasFatalFailure(); ++seed) play_hysteresis(behind[seed % std::size(behind)], seed, 12);
 }
 
 TEST(Hysteresis, EndsFlappingAtAnEdgeAndCountsIt) {
@@ -164,8 +170,8 @@ TEST(Tiers, SayInWhichRingAnEntityIsAndWhenThatChanges) {
 }
 
 /// Replays tiers to a recount by hand.
-TEST(Tiers, ReplayToTheRecount) {
-  for (std::uint64_t seed = 1; seed <= 60 && !HasFatalFailure(); ++seed) {
+void play_tiers(std::uint64_t first_seed, std::uint64_t last_seed) {
+  for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
     Random random(seed);
     const auto filter = make_filter("region with tiers(at=0.25 at=0.5)", settings_for(seed));
     std::map<std::pair<Subscriber, Entity>, int> known;
@@ -190,6 +196,9 @@ TEST(Tiers, ReplayToTheRecount) {
     }
   }
 }
+
+TEST(Tiers, ReplayToTheRecount) { play_tiers(1, 60); }
+TEST(TiersLong, ReplayToTheRecountOverThousandsOfSeeds) { play_tiers(100, 3'000); }
 
 TEST(Priority, SendsTheStateOfWhoEnteredFirstAndStarvesNobody) {
   const auto filter = make_filter("region with priority", hundred);

@@ -1,6 +1,7 @@
 // Half of a match on a second core: the same pairs and changes in the same order as alone, and nobody woken for little.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -9,6 +10,7 @@
 #include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
 #include "im/overlap_filter.h"
+#include "tests/im/long_play.h"
 
 namespace rink::im {
 namespace {
@@ -83,6 +85,36 @@ TEST(ThreadedMatching, ChangesAreTheSameWithASecondCoreWhateverPartMoves) {
         }
     }
     EXPECT_GE(second_core.task_count(), 4u);
+  }
+}
+
+/// A worker that is asked for everything: each scheme, and what stands on top of schemes, on layouts that are small enough for many turns.
+TEST(ThreadedMatching, EverySchemeIsTheSameWithASecondCore) {
+  std::vector<std::string> all = filter_names();
+  for (const char* composed : {"aura and not sight", "region with hysteresis(margin=0.5) with dwell(matches=3)", "aura with tiers(at=0.3 at=0.6)"}) all.emplace_back(composed);
+  for (const std::string& scheme : all) {
+    rti::SecondCore second_core;
+    second_core.worth_sharing = {0, 0};
+    for (const Layout& layout : layouts) {
+      SCOPED_TRACE(scheme + " on " + layout.name);
+      const auto alone = make_filter(scheme, settings_for(3)), shared = make_filter(scheme, settings_for(3));
+      shared->share_with(&second_core);
+      Random random(6);
+      for (const double share : {1.0, 0.05, 1.0, 0.3, 0.02, 0.0, 1.0}) {
+        for (std::uint32_t id = 0; id < 60; ++id) {
+          if (between(random, 0.0, 1.0) >= share) continue;
+          const Region place = layout.draw(random, 0.5), view = layout.draw(random, 3.0);
+          for (Filter* filter : {alone.get(), shared.get()}) {
+            filter->set_update_region(id, place);
+            if (id < 15) filter->set_subscription_region(id, view);
+          }
+        }
+        const auto expected = alone->match(), changes = shared->match();
+        ASSERT_TRUE(std::equal(expected.begin(), expected.end(), changes.begin(), changes.end())) << "a share of " << share;
+        ASSERT_EQ(alone->counters().pairs_tested, shared->counters().pairs_tested);
+      }
+    }
+    EXPECT_GT(second_core.task_count(), 0u) << scheme;
   }
 }
 
