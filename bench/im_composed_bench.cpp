@@ -24,7 +24,8 @@ constexpr std::uint32_t dwell_matches = 10, item_bytes = 20, budget = 500;
 
 /// The crowd with what brute force has to remember of it.
 struct Scene {
-  Scene(std::uint32_t subscribers, std::uint32_t objects) : crowd(subscribers, objects, rate_hz), flights(objects), reach(objects), holds_until(objects, -1.0), since(std::size_t{subscribers} * objects) {
+  Scene(std::uint32_t subscribers, std::uint32_t objects)
+      : crowd(subscribers, objects, rate_hz), flights(objects), reach(objects), holds_until(objects, -1.0), since(std::size_t{subscribers} * objects) {
     for (const double x : {0.2, 0.8})
       for (const double y : {0.3, 0.7}) posts.push_back({x * crowd.side, y * crowd.side, 1.0});
     for (std::size_t e = 0; e < objects; ++e) take_off(e);
@@ -120,6 +121,11 @@ bool is_in_sight(const Scene& scene, std::size_t s, std::size_t e) {
 using Rule = bool (*)(Scene&, std::size_t s, std::size_t e, bool was);
 
 bool is_in_aura(Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_disc(scene.subscriptions[s], scene.updates[e]); }
+bool is_in_diamond(Scene& scene, std::size_t s, std::size_t e, bool) {
+  const im::Region &mine = scene.subscriptions[s], &its = scene.updates[e];
+  const Point eye = eye_of(mine);
+  return std::abs(std::clamp(eye.x, its.low_x, its.high_x) - eye.x) + std::abs(std::clamp(eye.y, its.low_y, its.high_y) - eye.y) <= 0.5 * (mine.high_x - mine.low_x);
+}
 bool steadied(Scene& scene, std::size_t s, std::size_t e, bool was) { return overlaps(scene.subscriptions[s], scene.updates[e], was ? margin : 0.0); }
 bool dwells(Scene& scene, std::size_t s, std::size_t e, bool was) {
   std::uint32_t& since = scene.since[s * scene.updates.size() + e];
@@ -135,6 +141,7 @@ struct Case {
 };
 const Case cases[] = {
     {"aura", is_in_aura},
+    {"diamond", is_in_diamond},
     {"cone", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_cone(scene, s, e); }},
     {"sight", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_sight(scene, s, e); }},
     {"aura and sight", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_disc(scene.subscriptions[s], scene.updates[e]) && is_in_sight(scene, s, e); }},
