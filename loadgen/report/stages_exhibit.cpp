@@ -4,6 +4,7 @@
 
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/share_range.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
@@ -76,6 +77,7 @@ std::vector<Curve> curves_of(const Findings& findings) {
 
 LinePlot plot_of(const std::vector<Curve>& curves, const std::string& title, const char* axis, FigureOf figure, bool is_logarithmic) {
   LinePlot plot{title, axis, "payload, bytes per second and client", "", is_logarithmic, true, {}, {}, {}, {}, {}};
+  double least = 1.0;
   for (const Curve& curve : curves) {
     PlotLine drawn{curve.line.name, curve.line.style, {}};
     for (std::size_t i = 0; i < curve.line.groups.size(); ++i) {
@@ -84,8 +86,10 @@ LinePlot plot_of(const std::vector<Curve>& curves, const std::string& title, con
       if (!x || !bytes) continue;
       drawn.points.push_back({x->mean, bytes->mean, bytes->interval, x->interval, group.cell.scheme + ": " + plain_number(x->mean, 4) + ", " + short_number(bytes->mean) + "B/s", curve.labels[i]});
     }
+    for (const PlotPoint& point : drawn.points) least = std::min(least, point.x);
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
+  if (!is_logarithmic) plot.x_range = share_range(least);
   return plot;
 }
 

@@ -1,11 +1,11 @@
 // What each swept parameter does: precision against recall and bytes against both, a curve per scheme along the parameter's values.
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "loadgen/parameter.h"
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/share_range.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
@@ -56,14 +56,11 @@ struct Quantity {
 constexpr Quantity precision_of_decisions{"precision of the filter's decisions", precision, true}, recall_of_decisions{"recall of the filter's decisions", recall, true},
     bytes{"payload, bytes per second and client", payload, false};
 
-/// From below the least value, at a distance of 1, 2 or 5 times a power of ten from 1, to a little above 1: where all schemes miss little, little is what tells them apart.
 std::pair<double, double> range_of(const std::vector<CellLine>& curves, FigureOf figure) {
-  double span = 0.01;
+  double least = 1.0;
   for (const CellLine& curve : curves)
-    for (const CellGroup& group : curve.groups) span = std::max(span, 1.05 * (1.0 - group.mean(figure)->mean));
-  const double decade = std::pow(10.0, std::floor(std::log10(span) + 1e-9)), digit = span / decade;
-  span = std::min(1.0, decade * (digit > 5.0 + 1e-9 ? 10.0 : digit > 2.0 + 1e-9 ? 5.0 : digit > 1.0 + 1e-9 ? 2.0 : 1.0));
-  return {1.0 - span, 1.0 + 0.03 * span};
+    for (const CellGroup& group : curve.groups) least = std::min(least, group.mean(figure)->mean);
+  return share_range(least);
 }
 
 using Label = std::function<std::string(const Cell&)>;
