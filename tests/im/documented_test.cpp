@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "im/filter.h"
 #include "tests/places.h"
@@ -36,6 +38,20 @@ TEST(Documentation, ShowsTheSamplesAsTheyAreCompiled) {
   EXPECT_NE(text_of("im/diamond.cpp").find(samples[1]), std::string::npos) << samples[1];
   EXPECT_NE(text_of("im/filter.cpp").find(samples[2]), std::string::npos) << samples[2];
   EXPECT_NE(text_of("im/strips.cpp").find(samples[3]), std::string::npos) << samples[3];
+}
+
+TEST(Documentation, BeginsWithASampleThatDoesWhatItSays) {
+  const Subscriber subscriber = 0;
+  const Entity entity = 1;
+  std::vector<Change> entered;
+  const auto filter = rink::im::make_filter("aura and sight with hysteresis(margin=0.3)", {.world = {0, 0, 20, 10}});
+  filter->set_subscription_region(subscriber, {4, 4, 8, 8});
+  filter->set_update_region(entity, {7, 6, 8, 7});
+  for (const auto& change : filter->match()) entered.push_back(change);  // one: entity to subscriber
+  EXPECT_EQ(entered, (std::vector{Change{subscriber, entity, Transition::entered}}));
+  std::istringstream lines(samples_after("# Interest management", text_of("docs/im.md"))[0]);
+  const std::string own = text_of("tests/im/documented_test.cpp");
+  for (std::string line; std::getline(lines, line);) EXPECT_NE(own.find("  " + line + "\n"), std::string::npos) << line;
 }
 
 TEST(Documentation, NamesEverySchemeAndStage) {
