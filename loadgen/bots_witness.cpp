@@ -17,6 +17,7 @@ BotsWitness::BotsWitness(const game::SamplingSettings& settings, const std::vect
   }
   received_.resize(clients_.size());
   matched_s_.resize(clients_.size());
+  awaited_.resize(clients_.size());
   evidence_.bots.resize(clients_.size());
   evidence_.clients = settings.clients;
   evidence_.from_s = settings.from_s;
@@ -28,14 +29,26 @@ void BotsWitness::listen(std::uint32_t bot, std::optional<double> simulated_s) {
   const std::uint32_t place = place_[bot];
   game::Client& client = *clients_[place];
   const double instant_s = simulated_s.value_or(-1.0);
+  std::vector<rti::ObjectHandle>& awaited = awaited_[place];
   for (const game::Heard::Scope& scope : client.heard().scopes) {
-    if (++change_count_ > settings_.record_max) evidence_.is_complete = false;
-    else evidence_.bots[place].changes.push_back({instant_s, scope.object.value, scope.is_in});
+    if (scope.is_in) awaited.push_back(scope.object);
+    else if (std::erase(awaited, scope.object) == 0) note(place, {instant_s, scope.object.value, false});
   }
+  std::erase_if(awaited, [&](rti::ObjectHandle object) {
+    const game::MirroredEntity* const entity = client.mirror().find(object);
+    if (entity != nullptr && !entity->is_placed) return false;
+    note(place, {instant_s, object.value, true});
+    return true;
+  });
   if (next_instant_ < instants_.size() && instant_s >= instants_[next_instant_] - window_s)
     for (const game::Heard::Update& update : client.heard().updates) received_[place].push_back({instant_s, update.object.value, update.bytes});
   if (simulated_s) matched_s_[place] = std::max(matched_s_[place], client.mirror().newest().time);
   client.forget_heard();
+}
+
+void BotsWitness::note(std::uint32_t place, const BotsEvidence::ScopeChange& change) {
+  if (++change_count_ > settings_.record_max) evidence_.is_complete = false;
+  else evidence_.bots[place].changes.push_back(change);
 }
 
 double BotsWitness::next_sample_s() const { return next_instant_ < instants_.size() ? instants_[next_instant_] : std::numeric_limits<double>::infinity(); }
@@ -62,8 +75,8 @@ void BotsWitness::look_into(std::uint32_t place, double simulated_s) {
     if (!entity.in_scope && bytes == 0) continue;
     if (++skipped < step) continue;
     skipped = 0;
-    BotsEvidence::Belief belief{.object = entity.object.value, .bytes = bytes, .is_in_scope = entity.in_scope};
-    if (entity.in_scope) belief.matched = entity.position_at(matched_s_[place]), belief.displayed = entity.position_at(simulated_s);
+    BotsEvidence::Belief belief{.object = entity.object.value, .bytes = bytes, .is_in_scope = entity.in_scope && entity.is_placed};
+    if (belief.is_in_scope) belief.matched = entity.position_at(matched_s_[place]), belief.displayed = entity.position_at(simulated_s);
     evidence_.beliefs.push_back(belief);
   }
   evidence_.samples.push_back({.bot = place, .displayed_s = simulated_s, .matched_s = matched_s_[place], .window_s = window_s, .first = first, .last = evidence_.beliefs.size()});

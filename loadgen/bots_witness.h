@@ -37,6 +37,7 @@ class BotsWitness {
     std::uint32_t object, bytes;
   };
 
+  void note(std::uint32_t place, const BotsEvidence::ScopeChange& change);
   void look_into(std::uint32_t place, double simulated_s);
   std::uint32_t bytes_of(std::span<const Received> received, std::uint32_t object) const;
 
@@ -46,6 +47,7 @@ class BotsWitness {
   std::vector<double> instants_;
   std::size_t next_instant_ = 0, change_count_ = 0;
   std::vector<std::vector<Received>> received_;  ///< by place, within the window before the next instant
+  std::vector<std::vector<rti::ObjectHandle>> awaited_;  ///< by place: in scope, but not told yet where; a budget may keep that for later
   std::vector<double> matched_s_;                ///< by place: the newest stamp
   BotsEvidence evidence_;
 };

@@ -115,6 +115,7 @@ void Mirror::set_scope(rti::ObjectHandle object, bool in_scope) {
   MirroredEntity* changed = entity(object);
   if (changed == nullptr || changed->in_scope == in_scope) return;
   changed->in_scope = in_scope;
+  changed->is_placed &= in_scope;
   ++(in_scope ? counters_.entered : counters_.left);
 }
 

@@ -26,7 +26,7 @@ struct MirroredEntity {
   std::optional<Trajectory> trajectory; ///< as last told, or begun by the last snapshot; of entities that are told either
   physics::Motion motion;               ///< the law it stands for
   rti::Stamp stamp;       ///< of the newest update
-  bool is_placed = false; ///< it was told where it is: who discovers an entity may hear that later
+  bool is_placed = false; ///< it was told where it is since it last left: who discovers an entity, or has it again, may hear that later
   bool in_scope = false;  ///< false: it left the federate's interest, the rest is what was true then
 
   /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if it was told one, else where it was last told.

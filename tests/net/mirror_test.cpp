@@ -97,6 +97,13 @@ TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
   mirror.reflect(object, rti::AttributeSet{model.position}, encode(bytes, there), {});
   EXPECT_TRUE(mirror.find(object)->is_placed);
   EXPECT_EQ(mirror.find(object)->position, there);
+  mirror.set_scope(object, true);
+  EXPECT_TRUE(mirror.find(object)->is_placed) << "the state may come before the word that it entered, or after";
+  mirror.set_scope(object, false);
+  mirror.set_scope(object, true);
+  EXPECT_FALSE(mirror.find(object)->is_placed) << "where it was when it left is not where it is";
+  mirror.reflect(object, rti::AttributeSet{model.position}, encode(bytes, there), {});
+  EXPECT_TRUE(mirror.find(object)->is_placed);
 }
 
 }  // namespace
