@@ -19,8 +19,6 @@ constexpr float drift_max = 0.25f;
 constexpr float growth_max = 1.25f;
 /// The rounding of a drift is bounded for as many.
 constexpr std::uint32_t follow_max = 100;
-/// How many motions ahead memory is asked for.
-constexpr std::size_t follow_ahead = 16;
 
 }  // namespace
 
@@ -85,42 +83,29 @@ void BoxIndex::build() {
   follow_count_ = 0;
 }
 
-bool BoxIndex::follow(const RegionHistory& regions) {
+bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
   assert(is_moving_);
   if (++follow_count_ > follow_max) return false;
   std::swap(before_, now_);
+  const Advancing boxes{ids_.data(), regions, projection_, std::as_const(before_).columns(), now_.columns()};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     CellLevel& level = levels_[i];
     const CellLevel built = level;
-    level.x.widest = level.y.widest = 0.0f;
-    level.has_newcomers = false;
-    follow(regions, level, starts_[built.first_cell], starts_[built.first_cell + built.cell_count()]);
+    take_up(advance(instructions)(boxes, starts_[built.first_cell], starts_[built.first_cell + built.cell_count()], is_exact_), level);
     const auto is_worth_it = [](const CellAxis& axis, const CellAxis& before) { return axis.drift * axis.cells_per_metre <= drift_max && axis.widest <= growth_max * before.widest; };
     if (!is_worth_it(level.x, built.x) || !is_worth_it(level.y, built.y)) return false;
   }
   return true;
 }
 
-/// Takes up the boxes at places `first` to `end`, those of `level`.
-void BoxIndex::follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end) {
-  float widest_x = 0.0f, widest_y = 0.0f, shift_x = 0.0f, shift_y = 0.0f, begun_x = 0.0f, begun_y = 0.0f;
-  const Projection projection = projection_;
-  bool is_exact = is_exact_;
-  for (std::size_t i = first; i < end; ++i) {
-    if (i + follow_ahead < end) regions.prefetch(ids_[i + follow_ahead]);
-    const Region& region = regions[ids_[i]].now;
-    const FloatBox binned = now_[i], before = before_[i], now = projection(region), hull = hull_of(before, now);
-    if (is_exact) is_exact = projection.is_exact(region, now);
-    now_.set(i, now);
-    widest_x = std::max(widest_x, hull.high_x - hull.low_x), widest_y = std::max(widest_y, hull.high_y - hull.low_y);
-    begun_x = std::max(begun_x, before.low_x - binned.low_x), begun_y = std::max(begun_y, before.low_y - binned.low_y);
-    shift_x = std::max(shift_x, std::abs(now.low_x - before.low_x)), shift_y = std::max(shift_y, std::abs(now.low_y - before.low_y));
-  }
-  is_exact_ = is_exact;
-  level.x.widest = widest_x, level.y.widest = widest_y;
+void BoxIndex::take_up(const Advanced& advanced, CellLevel& level) {
+  is_exact_ = is_exact_ && advanced.is_exact;
+  level.has_newcomers = false;
+  level.x.widest = advanced.widest_x, level.y.widest = advanced.widest_y;
   // The cell is that of the hull's low corner, so at first a box may be beyond it by the step that was binned.
-  if (follow_count_ == 1) shift_x += begun_x, shift_y += begun_y;
-  level.x.drift += shift_x, level.y.drift += shift_y;
+  const bool is_first = follow_count_ == 1;
+  level.x.drift += is_first ? advanced.shift_x + advanced.begun_x : advanced.shift_x;
+  level.y.drift += is_first ? advanced.shift_y + advanced.begun_y : advanced.shift_y;
 }
 
 template <class Query>

@@ -28,7 +28,7 @@ class BoxIndex {
   void build();
   /// The next places of all moving boxes that were built: each stays in the cell that it has, questions reach as much farther as boxes have come since. `regions` are where they
   /// are now, all of them and at the last match in the places that are known here. False, and then it must be built anew, if they have come or grown too far for that to pay.
-  bool follow(const RegionHistory& regions);
+  bool follow(const RegionHistory& regions, Instructions instructions = Instructions::best);
 
   std::size_t size() const { return ids_.size(); }
   /// In the order of their cells.
@@ -54,7 +54,7 @@ class BoxIndex {
   void count_cells(const LevelOf& level_of);
   void sort();
   FloatBox hull(std::size_t staged) const;
-  void follow(const RegionHistory& regions, CellLevel& level, std::size_t first, std::size_t end);
+  void take_up(const Advanced& advanced, CellLevel& level);
   template <class Query>
   std::size_t collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const;
 

@@ -36,6 +36,9 @@ class Projection {
  public:
   explicit Projection(double origin_x = 0.0, double origin_y = 0.0) : origin_{origin_x, origin_y} {}
 
+  double origin_x() const { return origin_[0]; }
+  double origin_y() const { return origin_[1]; }
+
 #ifdef __SSE2__
   // Two coordinates at a time; the compiler does not see it.
   FloatBox operator()(const Region& region) const {

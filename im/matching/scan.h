@@ -63,9 +63,10 @@ struct Scans {
   const char* name;
 };
 
-enum class Instructions : std::uint8_t { best, scalar };
+/// `best` asks the processor; `sse2` is what every x86-64 processor has, and `scalar` wherever there is no such path.
+enum class Instructions : std::uint8_t { best, sse2, scalar };
 
-/// The same matches in the same order, whatever is chosen. `best` asks the processor.
+/// The same matches in the same order, whatever is chosen.
 const Scans& scans(Instructions instructions);
 
 extern const Scans scalar_scans;
