@@ -25,20 +25,23 @@ bool is_met(const Region& asker, const Region& asked) {
   return question == Question::of_discs ? touches_disc(asker, asked) : touches_disc(asked, asker);
 }
 
+Verdict verdict(bool was, bool is) { return was == is ? Verdict::no : is ? Verdict::entered : Verdict::match; }
+
 template <Question question>
 Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t asked) {
   const auto& exact = *static_cast<const Exact*>(context);
   const Motion &a = exact.askers[asker], &b = exact.asked[asked];
-  const bool is_in = is_met<question>(a.now, b.now);
-  if (is_in == is_met<question>(a.before, b.before)) return Verdict::no;
-  return is_in ? Verdict::entered : Verdict::match;
+  return verdict(is_met<question>(a.before, b.before), is_met<question>(a.now, b.now));
 }
 
-/// Empty lanes tie with a box as large as numbers go. Those who moved as well are met elsewhere.
-template <Question question>
-Verdict judge_resting(const void* context, std::uint32_t asker, std::uint32_t asked) {
+/// While the asked one stays where it was, or has come already. Empty lanes tie with a box as large as numbers go.
+template <Question question, Region Motion::*place>
+Verdict judge_standing(const void* context, std::uint32_t asker, std::uint32_t asked) {
+  if (asked == LiveIndex::nobody) return Verdict::no;
   const auto& exact = *static_cast<const Exact*>(context);
-  return asked == LiveIndex::nobody || exact.asked.has_moved(asked) ? Verdict::no : judge_moved<question>(context, asker, asked);
+  const Motion& a = exact.askers[asker];
+  const Region& b = exact.asked[asked].*place;
+  return verdict(is_met<question>(a.before, b), is_met<question>(a.now, b));
 }
 
 using Judge = Verdict (*)(const void*, std::uint32_t, std::uint32_t);
@@ -46,8 +49,11 @@ using Judge = Verdict (*)(const void*, std::uint32_t, std::uint32_t);
 Judge moved_judge(Question question) {
   return question == Question::rectangles ? judge_moved<Question::rectangles> : question == Question::of_discs ? judge_moved<Question::of_discs> : judge_moved<Question::about_discs>;
 }
-Judge resting_judge(Question question) {
-  return question == Question::rectangles ? judge_resting<Question::rectangles> : question == Question::of_discs ? judge_resting<Question::of_discs> : judge_resting<Question::about_discs>;
+template <Region Motion::*place>
+Judge standing_judge(Question question) {
+  return question == Question::rectangles ? judge_standing<Question::rectangles, place>
+         : question == Question::of_discs ? judge_standing<Question::of_discs, place>
+                                          : judge_standing<Question::about_discs, place>;
 }
 
 Question of_subscribers(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::of_discs; }
@@ -66,7 +72,7 @@ Region with_area(Region world) {
 
 }  // namespace
 
-ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape) : world_(with_area(world)), shape_(shape), join_(instructions) {}
+ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape) : world_(with_area(world)), instructions_(instructions), shape_(shape), join_(instructions) {}
 
 std::span<const Change> ChangeJoin::find(const RegionHistory& entities, std::span<const std::uint32_t> moved_entities, const RegionHistory& subscribers,
                                          std::span<const std::uint32_t> moved_subscribers) {
@@ -101,7 +107,7 @@ void ChangeJoin::stage(const Side& side) {
 /// Has the index hold everyone of `side`: those whom it held at the last match stay in their cells while they are near.
 void ChangeJoin::place(const Side& side) {
   Standing& standing = side.standing;
-  if (standing.is_placed && standing.swept.size() == side.regions.present_count() && standing.swept.follow(side.regions)) return;
+  if (standing.is_placed && standing.swept.size() == side.regions.present_count() && standing.swept.follow(side.regions, instructions_)) return;
   stage(side);
   standing.swept.build();
   const std::span<const std::uint32_t> ids = standing.swept.ids();
@@ -139,40 +145,38 @@ void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& e
   pairs_tested_ += join_.candidate_count();
 }
 
-/// Asks those of the other side that rest; those that moved may be found too, where they were.
-void ChangeJoin::ask_resting(const Side& askers, const Side& asked, Question question) {
+/// What changes for `asked`, all of them at `place`, while the askers go from where they were to where they are.
+template <Region Motion::*place>
+void ChangeJoin::ask_standing(const Side& askers, const Side& asked, Question question) {
   LiveIndex& live = asked.standing.live;
-  if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions);
+  if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions, place);
   asked.standing.is_live = true;
   probes_.begin(world_);
   for (const std::uint32_t id : askers.moved) probes_.add(id, askers.regions[id]);
   const Exact exact{askers.regions, asked.regions};
   join_.share_with(for_movers(worker_, askers.moved.size()));
   join_.clear();
-  join_.add_changes(live, probes_, {question != Question::rectangles || !(probes_.is_exact() && live.is_exact()), resting_judge(question), &exact}, question);
+  join_.add_changes(live, probes_, {question != Question::rectangles || !(probes_.is_exact() && live.is_exact()), standing_judge<place>(question), &exact}, question);
   pairs_tested_ += join_.candidate_count();
 }
 
+/// First the entities move, then the subscribers: so nobody needs to ask whether the other has moved as well, and what the second undoes of the first cancels out.
 void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
+  const auto move = [](const Side& side) {
+    if (side.standing.is_live) side.standing.live.put(side.moved, side.regions);
+  };
   if (!entities.moved.empty()) {
-    ask_resting(entities, subscribers, of_entities(shape_));
-    changes_.add_by_entity(join_, subscribers.regions);
+    ask_standing<&Motion::before>(entities, subscribers, of_entities(shape_));
+    changes_.add_by_entity(join_);
   }
+  move(entities);
   if (!subscribers.moved.empty()) {
-    ask_resting(subscribers, entities, of_subscribers(shape_));
-    changes_.add_by_subscriber(join_, entities.regions);
-  }
-  if (!entities.moved.empty() && !subscribers.moved.empty()) {
-    BoxIndex& movers = entities.standing.swept;
-    movers.begin(world_, entities.moved.size(), true);
-    for (const std::uint32_t id : entities.moved) movers.stage(id, entities.regions[id]);
-    movers.build();
-    join(movers, probes_, entities, subscribers);  // the probes are the moved subscribers already
+    ask_standing<&Motion::now>(subscribers, entities, of_subscribers(shape_));
     changes_.add_by_subscriber(join_);
   }
+  move(subscribers);
   for (const Side* side : {&entities, &subscribers}) {
     side->standing.is_placed = false;
-    if (side->standing.is_live) side->standing.live.put(side->moved, side->regions);
     const auto is_newcomer = [&](std::uint32_t id) { return is_nowhere(side->regions[id].before); };
     side->standing.is_ordered = side->standing.is_ordered && std::none_of(side->moved.begin(), side->moved.end(), is_newcomer);
   }

@@ -14,8 +14,8 @@
 namespace rink::im {
 
 /// Keeps no pairs: a pair has changed if its overlap before and now differ, so both places are looked at at once. Two ways, the same result:
-/// when many moved, all boxes are binned anew by the hull of their two places and joined; when few did, those ask the resting ones of the other side, which
-/// are kept in place, and are joined among themselves.
+/// when many moved, all boxes are binned anew by the hull of their two places and joined; when few did, first the entities that moved ask the subscribers where
+/// those were, then the subscribers that moved ask the entities where those are now, and a pair that changed twice has not changed.
 class ChangeJoin {
  public:
   explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best, Shape shape = Shape::rectangle);
@@ -58,11 +58,13 @@ class ChangeJoin {
   void join_movers(const Side& entities, const Side& subscribers);
   void stage(const Side& side);
   void place(const Side& side);
-  void ask_resting(const Side& askers, const Side& asked, Question question);
+  template <Region Motion::*place>
+  void ask_standing(const Side& askers, const Side& asked, Question question);
   template <class Askers>
   void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
 
   Region world_;
+  Instructions instructions_;
   Shape shape_;
   Standing entities_, subscribers_;
   ProbeList probes_;

@@ -6,7 +6,7 @@
 namespace rink::im {
 namespace {
 
-/// The last bit is the transition: a pair is there once, so it does not decide the order.
+/// The last bit is the transition: it does not decide the order of pairs.
 std::uint64_t key(std::uint32_t subscriber, std::uint32_t entity, bool is_entered) { return std::uint64_t{subscriber} << 32 | entity << 1 | (is_entered ? 1u : 0u); }
 
 Change change(std::uint64_t key) {
@@ -37,16 +37,11 @@ void ChangeList::add_by_subscriber(const Join& join) {
   }
 }
 
-void ChangeList::add_by_subscriber(const Join& join, const RegionHistory& entities) {
+void ChangeList::add_by_entity(const Join& join) {
+  std::size_t count = keys_.size();
+  keys_.resize(count + join.found_count());
   for (std::size_t i = 0; i < join.asker_count(); ++i)
-    for (const std::uint32_t found : join.found(i))
-      if (const Entity entity = found & ~entered_bit; !entities.has_moved(entity)) keys_.push_back(key(join.asker(i), entity, (found & entered_bit) != 0));
-}
-
-void ChangeList::add_by_entity(const Join& join, const RegionHistory& subscribers) {
-  for (std::size_t i = 0; i < join.asker_count(); ++i)
-    for (const std::uint32_t found : join.found(i))
-      if (const Subscriber subscriber = found & ~entered_bit; !subscribers.has_moved(subscriber)) keys_.push_back(key(subscriber, join.asker(i), (found & entered_bit) != 0));
+    for (const std::uint32_t found : join.found(i)) keys_[count++] = key(found & ~entered_bit, join.asker(i), (found & entered_bit) != 0);
 }
 
 void ChangeList::sort(std::size_t subscriber_count) {
@@ -66,7 +61,12 @@ void ChangeList::sort(std::size_t subscriber_count) {
 std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
   sort(subscriber_count);
   changes_.resize(keys_.size());
-  for (std::size_t i = 0; i < keys_.size(); ++i) changes_[i] = change(keys_[i]);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    changes_[count++] = change(keys_[i]);
+    if (i > 0 && (keys_[i] ^ keys_[i - 1]) == 1) count -= 2;
+  }
+  changes_.resize(count);
   return changes_.span();
 }
 

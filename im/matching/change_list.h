@@ -7,7 +7,6 @@
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 #include "im/matching/join.h"
-#include "im/region_history.h"
 
 namespace rink::im {
 
@@ -16,11 +15,9 @@ class ChangeList {
   void clear() { keys_.clear(); }
   /// All that subscribers found among entities.
   void add_by_subscriber(const Join& join);
-  /// The same, but for entities that moved.
-  void add_by_subscriber(const Join& join, const RegionHistory& entities);
-  /// All that entities found among subscribers, but for those that moved.
-  void add_by_entity(const Join& join, const RegionHistory& subscribers);
-  /// Orders the changes, of pairs none of which is doubled, of subscribers below `subscriber_count`. Valid until the next call.
+  /// All that entities found among subscribers.
+  void add_by_entity(const Join& join);
+  /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered and left, and is left out. Valid until the next call.
   std::span<const Change> ordered(std::size_t subscriber_count);
 
   std::size_t bytes() const { return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) + sizeof(std::uint32_t) * starts_.capacity() + sizeof(Change) * changes_.capacity(); }

@@ -17,7 +17,7 @@ constexpr std::size_t ahead = 8;
 
 }  // namespace
 
-void LiveIndex::build(const Region& world, const RegionHistory& regions) {
+void LiveIndex::build(const Region& world, const RegionHistory& regions, Region Motion::*place) {
   projection_ = Projection(world.low_x, world.low_y);
   is_built_ = is_exact_ = true;
   has_grown_ = false;
@@ -26,9 +26,10 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions) {
   for (Buffer<std::uint32_t>& runs : free_) runs.clear();
   staged_.reserve(regions.size()), staged_ids_.reserve(regions.size());
   for (std::uint32_t id = 0; id < regions.size(); ++id) {
-    if (is_nowhere(regions[id].now) || regions.has_moved(id)) continue;
-    const FloatBox box = projection_(regions[id].now);
-    is_exact_ = is_exact_ && projection_.is_exact(regions[id].now, box);
+    const Region& region = regions[id].*place;
+    if (is_nowhere(region)) continue;
+    const FloatBox box = projection_(region);
+    is_exact_ = is_exact_ && projection_.is_exact(region, box);
     sizes_.count(longer_side(box));
     staged_.push_back(box);
     staged_ids_.push_back(id);

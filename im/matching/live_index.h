@@ -1,4 +1,4 @@
-// Boxes at rest, each stored once in its cell, where few of them move at a time: they are put elsewhere in place and nothing else is touched.
+// Boxes that stand, each stored once in its cell, where few of them move at a time: those are put elsewhere in place and nothing else is touched.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ class LiveIndex {
   /// Never the id of a box: an empty lane's.
   static constexpr std::uint32_t nobody = RegionHistory::id_max;
 
-  /// Starts anew with those of `regions` that are somewhere now and have not moved.
-  void build(const Region& world, const RegionHistory& regions);
+  /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where they are now.
+  void build(const Region& world, const RegionHistory& regions, Region Motion::*place);
   /// Adds or moves boxes to where they are now.
   void put(std::span<const std::uint32_t> ids, const RegionHistory& regions);
   void remove(std::uint32_t id);

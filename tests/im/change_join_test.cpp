@@ -1,6 +1,7 @@
 // The matching engine behind the schemes: both its ways and both its paths give the same changes, and those that brute force gives.
 #include <gtest/gtest.h>
 
+#include "im/matching/advance.h"
 #include "im/overlap_filter.h"
 #include "tests/im/layouts.h"
 #include "tests/im/recount.h"
@@ -58,14 +59,16 @@ void follow(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count
   SCOPED_TRACE(std::string(layout.name) + " with seed " + std::to_string(seed));
   Scene scene(layout, seed, entity_count, subscriber_count);
   const Region world{0.0, 0.0, side, side};
-  OverlapFilter best(world, Instructions::best, shape), scalar(world, Instructions::scalar, shape), lost({1e6, 1e6, 1e6 + 1.0, 1e6 + 1.0}, Instructions::best, shape);
+  OverlapFilter best(world, Instructions::best, shape), sse2(world, Instructions::sse2, shape), scalar(world, Instructions::scalar, shape);
+  OverlapFilter lost({1e6, 1e6, 1e6 + 1.0, 1e6 + 1.0}, Instructions::best, shape);
   std::vector<bool> known(std::size_t{entity_count} * subscriber_count);
   for (int round = 0; round < rounds; ++round)
     for (const double share : shares) {
       scene.step(share);
-      for (Filter* filter : {static_cast<Filter*>(&best), static_cast<Filter*>(&scalar), static_cast<Filter*>(&lost)}) scene.tell(*filter);
-      const auto changes = best.match(), plain = scalar.match(), far = lost.match();
+      for (OverlapFilter* filter : {&best, &sse2, &scalar, &lost}) scene.tell(*filter);
+      const auto changes = best.match(), four = sse2.match(), plain = scalar.match(), far = lost.match();
       ASSERT_TRUE(std::equal(changes.begin(), changes.end(), plain.begin(), plain.end())) << "the scalar path differs";
+      ASSERT_TRUE(std::equal(changes.begin(), changes.end(), four.begin(), four.end())) << "the path of SSE2 differs";
       ASSERT_TRUE(std::equal(changes.begin(), changes.end(), far.begin(), far.end())) << "the expected world changes the result";
       for (const Change& change : changes) {
         const std::size_t place = change.subscriber * scene.entity_count() + change.entity;
@@ -91,17 +94,18 @@ void drift(const Layout& layout, std::uint64_t seed, std::uint32_t entity_count,
   SCOPED_TRACE(std::string(layout.name) + " with seed " + std::to_string(seed));
   Scene scene(layout, seed, entity_count, subscriber_count);
   const Region world{0.0, 0.0, side, side};
-  OverlapFilter best(world, Instructions::best, shape), scalar(world, Instructions::scalar, shape);
+  OverlapFilter best(world, Instructions::best, shape), sse2(world, Instructions::sse2, shape), scalar(world, Instructions::scalar, shape);
   std::vector<bool> known(std::size_t{entity_count} * subscriber_count);
   for (int tick = 0; tick < ticks; ++tick) {
     if (scene.drift(tick % 3)) {
-      for (Filter* filter : {&best, &scalar}) filter->remove_entity(3), filter->remove_subscriber(5);
+      for (Filter* filter : {&best, &sse2, &scalar}) filter->remove_entity(3), filter->remove_subscriber(5);
       for (std::size_t place = 0; place < known.size(); ++place)
         if (place % entity_count == 3 || place / entity_count == 5) known[place] = false;
     }
-    scene.tell(best), scene.tell(scalar);
-    const auto changes = best.match(), plain = scalar.match();
+    scene.tell(best), scene.tell(sse2), scene.tell(scalar);
+    const auto changes = best.match(), four = sse2.match(), plain = scalar.match();
     ASSERT_TRUE(std::equal(changes.begin(), changes.end(), plain.begin(), plain.end())) << "the scalar path differs";
+    ASSERT_TRUE(std::equal(changes.begin(), changes.end(), four.begin(), four.end())) << "the path of SSE2 differs";
     for (const Change& change : changes) known[change.subscriber * scene.entity_count() + change.entity] = change.transition == Transition::entered;
     ASSERT_EQ(known, scene.recount(shape)) << "at tick " << tick;
   }
@@ -203,6 +207,38 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
   regions.settle();
   tell(0.2);
   EXPECT_FALSE(index.follow(regions));
+}
+
+/// Bit for bit, whatever is left over when they are taken several at a time; also of boxes that were nowhere, or lie where floats end.
+TEST(Advance, TakesBoxesToTheSamePlacesOneByOneAndSeveralAtATime) {
+  Random random(11);
+  for (const Layout& layout : layouts)
+    for (std::uint32_t count = 0; count < 45; ++count) {
+      RegionHistory regions;
+      std::vector<std::uint32_t> ids;
+      std::array<std::vector<float>, 4> before, binned;
+      const Projection projection(0.25, -3.0);
+      for (std::uint32_t id = 0; id < count; ++id) {
+        regions.set(id, layout.draw(random, 1.0));
+        ids.push_back(count - 1 - id);
+        const FloatBox was = id % 11 == 10 ? float_nowhere : projection(layout.draw(random, 1.0)), place = projection(layout.draw(random, 1.0));
+        const float edges[2][4] = {{was.low_x, was.low_y, was.high_x, was.high_y}, {place.low_x, place.low_y, place.high_x, place.high_y}};
+        for (std::size_t i = 0; i < 4; ++i) before[i].push_back(edges[0][i]), binned[i].push_back(edges[1][i]);
+      }
+      for (const bool asks_exact : {true, false}) {
+        const auto taken = [&](Instructions instructions) {
+          auto now = binned;
+          const Advancing boxes{ids.data(), regions, projection, {before[0].data(), before[1].data(), before[2].data(), before[3].data()}, {now[0].data(), now[1].data(), now[2].data(), now[3].data()}};
+          const std::size_t first = std::min(count, 3u);
+          const Advanced all = advance(instructions)(boxes, first, count, asks_exact);
+          return std::pair(std::array{all.widest_x, all.widest_y, all.shift_x, all.shift_y, all.begun_x, all.begun_y, all.is_exact ? 1.0f : 0.0f}, now);
+        };
+        const auto plain = taken(Instructions::scalar);
+        EXPECT_EQ(plain, taken(Instructions::sse2)) << layout.name << count;
+        EXPECT_EQ(plain, taken(Instructions::best)) << layout.name << count;
+        for (std::uint32_t i = 3; i < count; ++i) ASSERT_EQ(plain.second[2][i], projection(regions[ids[i]].now).high_x);
+      }
+    }
 }
 
 TEST(ChangeJoinLong, DriftsThroughEveryLayout) {
