@@ -8,7 +8,9 @@ void OverlapFilter::set_update_region(Entity entity, const Region& region) {
 }
 
 void OverlapFilter::remove_entity(Entity entity) {
-  if (entities_.remove(entity)) join_.forget_entity(entity);
+  if (!entities_.contains(entity)) return;
+  join_.forget_entity(entity, entities_.last_place(entity));
+  entities_.remove(entity);
 }
 
 void OverlapFilter::set_subscription_region(Subscriber subscriber, const Region& region) {
@@ -16,7 +18,9 @@ void OverlapFilter::set_subscription_region(Subscriber subscriber, const Region&
 }
 
 void OverlapFilter::remove_subscriber(Subscriber subscriber) {
-  if (subscribers_.remove(subscriber)) join_.forget_subscriber(subscriber);
+  if (!subscribers_.contains(subscriber)) return;
+  join_.forget_subscriber(subscriber, subscribers_.last_place(subscriber));
+  subscribers_.remove(subscriber);
 }
 
 std::span<const Change> OverlapFilter::find() {

@@ -49,6 +49,8 @@ class RegionHistory {
   std::size_t present_count() const { return motions_.size() - absent_count_; }
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
   bool has_moved(std::uint32_t id) const { return is_listed(id); }
+  /// Where `id`, which is known, was at the last match; maybe nowhere.
+  const Region& last_place(std::uint32_t id) const { return is_listed(id) ? motions_[id].before : motions_[id].now; }
 
   /// Those that were set to another place since the last match (and maybe back again), in ascending order; has_moved and `before` agree from here to `settle`.
   std::span<const std::uint32_t> take_moved();

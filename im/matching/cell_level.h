@@ -98,19 +98,25 @@ struct CellQuery {
   CellRange columns, rows, inner_columns{0, -1}, inner_rows{0, -1};
   bool has_inner(std::int32_t row) const { return !inner_columns.is_empty() && inner_rows.first <= row && row <= inner_rows.last; }
 
+  /// Calls `visit(row, first, last)` with closed ranges of columns.
+  template <class Visit>
+  void for_each_part(const Visit& visit) const {
+    for (std::int32_t row = rows.first; row <= rows.last; ++row) {
+      if (has_inner(row)) {
+        if (columns.first < inner_columns.first) visit(row, columns.first, inner_columns.first - 1);
+        if (inner_columns.last < columns.last) visit(row, inner_columns.last + 1, columns.last);
+      } else {
+        visit(row, columns.first, columns.last);
+      }
+    }
+  }
   /// Calls `visit(first, last)` with closed ranges of adjacent cells of `level`.
   template <class Visit>
   void for_each_run(const CellLevel& level, const Visit& visit) const {
-    for (std::int32_t row = rows.first; row <= rows.last; ++row) {
+    for_each_part([&](std::int32_t row, std::int32_t first, std::int32_t last) {
       const std::uint32_t cell = level.first_cell + static_cast<std::uint32_t>(row) * level.columns();
-      const auto at = [cell](std::int32_t column) { return cell + static_cast<std::uint32_t>(column); };
-      if (has_inner(row)) {
-        if (columns.first < inner_columns.first) visit(at(columns.first), at(inner_columns.first - 1));
-        if (inner_columns.last < columns.last) visit(at(inner_columns.last + 1), at(columns.last));
-      } else {
-        visit(at(columns.first), at(columns.last));
-      }
-    }
+      visit(cell + static_cast<std::uint32_t>(first), cell + static_cast<std::uint32_t>(last));
+    });
   }
 };
 

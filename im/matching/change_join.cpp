@@ -51,13 +51,10 @@ Judge moved_judge(Question question) {
 }
 template <Region Motion::*place>
 Judge standing_judge(Question question) {
-  return question == Question::rectangles ? judge_standing<Question::rectangles, place>
-         : question == Question::of_discs ? judge_standing<Question::of_discs, place>
-                                          : judge_standing<Question::about_discs, place>;
+  return question == Question::of_discs ? judge_standing<Question::of_discs, place> : judge_standing<Question::about_discs, place>;
 }
 
 Question of_subscribers(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::of_discs; }
-Question of_entities(Shape shape) { return shape == Shape::rectangle ? Question::rectangles : Question::about_discs; }
 
 /// Grows a side that is none.
 Region with_area(Region world) {
@@ -145,36 +142,81 @@ void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& e
   pairs_tested_ += join_.candidate_count();
 }
 
+/// The askers to come.
+void ChangeJoin::list(const Side& movers) {
+  probes_.begin(world_);
+  for (std::size_t i = 0; i < movers.moved.size(); ++i) {
+    if (i + stage_ahead < movers.moved.size()) movers.regions.prefetch(movers.moved[i + stage_ahead]);
+    probes_.add(movers.moved[i], movers.regions[movers.moved[i]]);
+  }
+}
+
 /// What changes for `asked`, all of them at `place`, while the askers go from where they were to where they are.
 template <Region Motion::*place>
-void ChangeJoin::ask_standing(const Side& askers, const Side& asked, Question question) {
+void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_entity) {
+  LineIndex& lines = asked.standing.lines;
+  if (!asked.standing.is_live || lines.is_outgrown()) lines.build(world_, asked.regions, place);
+  asked.standing.is_live = true;
+  const Exact exact{askers.regions, asked.regions};
+  const TieJudge judge{true, judge_standing<Question::rectangles, place>, &exact};
+  Worker* const worker = for_movers(worker_, askers.moved.size());
+  const std::size_t count = probes_.size(), middle = worker != nullptr ? count / 2 : count;
+  answers_.clear(), other_answers_.clear();
+  run_both(worker, [&] { lines.find_changes(probes_, 0, middle, judge, asked.regions, instructions_, answers_); },
+           [&] { lines.find_changes(probes_, middle, count, judge, asked.regions, instructions_, other_answers_); });
+  for (const LineIndex::Answers* answers : {&answers_, &other_answers_}) {
+    if (is_by_entity) changes_.add_by_entity(answers->found.span());
+    else changes_.add_by_subscriber(answers->found.span());
+    pairs_tested_ += answers->candidate_count;
+  }
+}
+
+template <Region Motion::*place>
+void ChangeJoin::ask_live(const Side& askers, const Side& asked, Question question) {
   LiveIndex& live = asked.standing.live;
   if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions, place);
   asked.standing.is_live = true;
-  probes_.begin(world_);
-  for (const std::uint32_t id : askers.moved) probes_.add(id, askers.regions[id]);
   const Exact exact{askers.regions, asked.regions};
   join_.share_with(for_movers(worker_, askers.moved.size()));
   join_.clear();
-  join_.add_changes(live, probes_, {question != Question::rectangles || !(probes_.is_exact() && live.is_exact()), standing_judge<place>(question), &exact}, question);
+  join_.add_changes(live, probes_, {true, standing_judge<place>(question), &exact}, question);
   pairs_tested_ += join_.candidate_count();
+}
+
+void ChangeJoin::put(const Side& movers) {
+  if (!movers.standing.is_live) return;
+  if (shape_ == Shape::rectangle) movers.standing.lines.put(probes_);
+  else movers.standing.live.put(movers.moved, movers.regions);
+}
+
+void ChangeJoin::Standing::forget(std::uint32_t id, const Region& place) {
+  is_placed = false;
+  live.remove(id);
+  if (is_live && lines.is_built() && !is_nowhere(place)) lines.remove(id, place);
 }
 
 /// First the entities move, then the subscribers: so nobody needs to ask whether the other has moved as well, and what the second undoes of the first cancels out.
 void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
-  const auto move = [](const Side& side) {
-    if (side.standing.is_live) side.standing.live.put(side.moved, side.regions);
-  };
   if (!entities.moved.empty()) {
-    ask_standing<&Motion::before>(entities, subscribers, of_entities(shape_));
-    changes_.add_by_entity(join_);
+    list(entities);
+    if (shape_ == Shape::rectangle) {
+      ask_lines<&Motion::before>(entities, subscribers, true);
+    } else {
+      ask_live<&Motion::before>(entities, subscribers, Question::about_discs);
+      changes_.add_by_entity(join_);
+    }
+    put(entities);
   }
-  move(entities);
   if (!subscribers.moved.empty()) {
-    ask_standing<&Motion::now>(subscribers, entities, of_subscribers(shape_));
-    changes_.add_by_subscriber(join_);
+    list(subscribers);
+    if (shape_ == Shape::rectangle) {
+      ask_lines<&Motion::now>(subscribers, entities, false);
+    } else {
+      ask_live<&Motion::now>(subscribers, entities, Question::of_discs);
+      changes_.add_by_subscriber(join_);
+    }
+    put(subscribers);
   }
-  move(subscribers);
   for (const Side* side : {&entities, &subscribers}) {
     side->standing.is_placed = false;
     const auto is_newcomer = [&](std::uint32_t id) { return is_nowhere(side->regions[id].before); };
@@ -183,7 +225,7 @@ void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
 }
 
 std::size_t ChangeJoin::bytes() const {
-  return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() + changes_.bytes();
+  return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() + answers_.bytes() + other_answers_.bytes() + changes_.bytes();
 }
 
 }  // namespace rink::im

@@ -8,6 +8,7 @@
 #include "im/matching/change_list.h"
 #include "im/matching/disc.h"
 #include "im/matching/join.h"
+#include "im/matching/line_index.h"
 #include "im/matching/live_index.h"
 #include "im/region_history.h"
 
@@ -27,8 +28,9 @@ class ChangeJoin {
   /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must outlive this. Changes and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
-  void forget_entity(std::uint32_t entity) { entities_.forget(entity); }
-  void forget_subscriber(std::uint32_t subscriber) { subscribers_.forget(subscriber); }
+  /// `place` is where it was at the last match, maybe nowhere.
+  void forget_entity(std::uint32_t entity, const Region& place) { entities_.forget(entity, place); }
+  void forget_subscriber(std::uint32_t subscriber, const Region& place) { subscribers_.forget(subscriber, place); }
 
   std::uint64_t pairs_tested() const { return pairs_tested_; }
   std::size_t bytes() const;
@@ -36,17 +38,15 @@ class ChangeJoin {
  private:
   /// What is kept of a set from match to match.
   struct Standing {
-    LiveIndex live;
+    LineIndex lines;              // of rectangles
+    LiveIndex live;               // of discs, and of what is asked about them
     bool is_live = false;         // the index agrees with where all were before
     Buffer<std::uint32_t> order;  // of ids in space when everyone was last joined
     bool is_ordered = false;      // all who were somewhere before are in it
     BoxIndex swept;               // everyone, if everyone was joined at the last match
     bool is_placed = false;       // `swept` holds all who were somewhere before, where they were
-    void forget(std::uint32_t id) {
-      live.remove(id);
-      is_placed = false;
-    }
-    std::size_t bytes() const { return live.bytes() + sizeof(std::uint32_t) * order.capacity() + swept.bytes(); }
+    void forget(std::uint32_t id, const Region& place);
+    std::size_t bytes() const { return lines.bytes() + live.bytes() + sizeof(std::uint32_t) * order.capacity() + swept.bytes(); }
   };
   /// One of the two sets, at this match.
   struct Side {
@@ -58,8 +58,12 @@ class ChangeJoin {
   void join_movers(const Side& entities, const Side& subscribers);
   void stage(const Side& side);
   void place(const Side& side);
+  void list(const Side& movers);
   template <Region Motion::*place>
-  void ask_standing(const Side& askers, const Side& asked, Question question);
+  void ask_lines(const Side& askers, const Side& asked, bool is_by_entity);
+  template <Region Motion::*place>
+  void ask_live(const Side& askers, const Side& asked, Question question);
+  void put(const Side& movers);
   template <class Askers>
   void join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers);
 
@@ -69,6 +73,7 @@ class ChangeJoin {
   Standing entities_, subscribers_;
   ProbeList probes_;
   Join join_;
+  LineIndex::Answers answers_, other_answers_;
   ChangeList changes_;
   std::uint64_t pairs_tested_ = 0;
   Worker* worker_ = nullptr;

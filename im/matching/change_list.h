@@ -17,6 +17,9 @@ class ChangeList {
   void add_by_subscriber(const Join& join);
   /// All that entities found among subscribers.
   void add_by_entity(const Join& join);
+  /// The same, from numbers whose high half is who asked, the low half whom he found with `entered_bit`.
+  void add_by_subscriber(std::span<const std::uint64_t> found);
+  void add_by_entity(std::span<const std::uint64_t> found);
   /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered and left, and is left out. Valid until the next call.
   std::span<const Change> ordered(std::size_t subscriber_count);
 
@@ -24,6 +27,7 @@ class ChangeList {
 
  private:
   void sort(std::size_t subscriber_count);
+  void sort_by_digits();
 
   Buffer<std::uint64_t> keys_, sorted_;  // subscriber, entity, entered
   Buffer<std::uint32_t> starts_;

@@ -19,7 +19,7 @@ constexpr std::size_t ahead = 8;
 
 void LiveIndex::build(const Region& world, const RegionHistory& regions, Region Motion::*place) {
   projection_ = Projection(world.low_x, world.low_y);
-  is_built_ = is_exact_ = true;
+  is_built_ = true;
   has_grown_ = false;
   sizes_.clear();
   staged_.clear(), staged_ids_.clear();
@@ -29,7 +29,6 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions, Region 
     const Region& region = regions[id].*place;
     if (is_nowhere(region)) continue;
     const FloatBox box = projection_(region);
-    is_exact_ = is_exact_ && projection_.is_exact(region, box);
     sizes_.count(longer_side(box));
     staged_.push_back(box);
     staged_ids_.push_back(id);
@@ -133,7 +132,6 @@ std::uint32_t LiveIndex::cell_for(const FloatBox& box) {
 
 void LiveIndex::put(std::uint32_t id, const Region& region) {
   const FloatBox box = projection_(region);
-  is_exact_ = is_exact_ && projection_.is_exact(region, box);
   const std::uint32_t cell = cell_for(box);
   if (holds(id)) {
     if (blocks_[place_of_[id] / lanes].cell == cell) return set(place_of_[id], box);

@@ -28,7 +28,6 @@ class LiveIndex {
 
   /// True if it was never built, or so much came or grew since that it is worth building anew.
   bool is_outgrown() const;
-  bool is_exact() const { return is_exact_; }
   Candidates candidates() const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes those are.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
@@ -71,7 +70,7 @@ class LiveIndex {
   bool holds(std::uint32_t id) const { return id < place_of_.size() && place_of_[id] != none; }
 
   Projection projection_;
-  bool is_built_ = false, is_exact_ = true, has_grown_ = false;
+  bool is_built_ = false, has_grown_ = false;
   std::size_t size_ = 0, built_size_ = 0;
   SizeLevels sizes_;
   CellLevels levels_;

@@ -149,6 +149,43 @@ TEST(ChangeJoin, FollowsManyWhoAreKickedNowAndThen) {
   }
 }
 
+/// A cell's line has room for eight, the rest of a crowd is in further ones: whoever comes, stays, goes or is forgotten is found where he is. Where the floats end, too.
+TEST(ChangeJoin, FollowsACrowdThatGathersInOneCellAndLeavesIt) {
+  constexpr std::uint32_t entities = 400, subscribers = 40;
+  for (const double scale : {1.0, 1e-30, 1e30}) {
+    Random random(12);
+    std::vector<Region> here(entities + subscribers);
+    const auto draw = [&](double half) {
+      const bool is_in_crowd = between(random, 0.0, 1.0) < 0.6;
+      const Region r = is_in_crowd ? around(5.0 + std::round(between(random, -2.0, 2.0)) / 8.0, 5.0, half) : around(between(random, 0.0, side), between(random, 0.0, side), half);
+      return Region{r.low_x * scale, r.low_y * scale, r.high_x * scale, r.high_y * scale};
+    };
+    OverlapFilter best({0.0, 0.0, side * scale, side * scale}), scalar({0.0, 0.0, side * scale, side * scale}, Instructions::scalar);
+    std::vector<bool> known(std::size_t{entities} * subscribers);
+    for (int tick = 0; tick < 120; ++tick) {
+      for (std::uint32_t k = 0; k < here.size(); ++k)
+        if (tick == 0 || between(random, 0.0, 1.0) < 0.08) here[k] = draw(k < entities ? 0.125 : 0.5);
+      const auto gone = static_cast<std::uint32_t>(between(random, 0.0, subscribers));
+      for (OverlapFilter* filter : {&best, &scalar}) {
+        if (tick % 4 == 3) filter->remove_entity(gone), filter->remove_subscriber(gone);
+        for (std::uint32_t k = 0; k < entities; ++k) filter->set_update_region(k, here[k]);
+        for (std::uint32_t k = 0; k < subscribers; ++k) filter->set_subscription_region(k, here[entities + k]);
+      }
+      if (tick % 4 == 3)
+        for (std::size_t pair = 0; pair < known.size(); ++pair)
+          if (pair / entities == gone || pair % entities == gone) known[pair] = false;
+      const auto changes = best.match(), plain = scalar.match();
+      ASSERT_TRUE(std::equal(changes.begin(), changes.end(), plain.begin(), plain.end())) << "the scalar path differs";
+      for (const Change& change : changes) {
+        const std::size_t pair = change.subscriber * entities + change.entity;
+        ASSERT_NE(known[pair], change.transition == Transition::entered) << "subscriber " << change.subscriber << " entity " << change.entity;
+        known[pair] = !known[pair];
+      }
+      for (std::size_t pair = 0; pair < known.size(); ++pair) ASSERT_EQ(known[pair], overlap(here[entities + pair / entities], here[pair % entities])) << "at tick " << tick;
+    }
+  }
+}
+
 /// A point at (3, 4) is on the circle of radius 5, at any scale and wherever the middle is; the least step that its coordinates know is off it.
 TEST(ChangeJoin, SeesAPointOnACircleAsOneAtEveryScale) {
   for (const Instructions instructions : {Instructions::best, Instructions::scalar})
@@ -228,7 +265,8 @@ TEST(Advance, TakesBoxesToTheSamePlacesOneByOneAndSeveralAtATime) {
       for (const bool asks_exact : {true, false}) {
         const auto taken = [&](Instructions instructions) {
           auto now = binned;
-          const Advancing boxes{ids.data(), regions, projection, {before[0].data(), before[1].data(), before[2].data(), before[3].data()}, {now[0].data(), now[1].data(), now[2].data(), now[3].data()}};
+          const BoxColumns from{before[0].data(), before[1].data(), before[2].data(), before[3].data()};
+          const Advancing boxes{ids.data(), regions, projection, from, {now[0].data(), now[1].data(), now[2].data(), now[3].data()}};
           const std::size_t first = std::min(count, 3u);
           const Advanced all = advance(instructions)(boxes, first, count, asks_exact);
           return std::pair(std::array{all.widest_x, all.widest_y, all.shift_x, all.shift_y, all.begun_x, all.begun_y, all.is_exact ? 1.0f : 0.0f}, now);
