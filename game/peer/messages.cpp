@@ -12,7 +12,8 @@ namespace rink::peer {
 
 namespace {
 
-constexpr std::size_t checksum_size = 8;
+/// Of what is said in every window: nearly all of these messages are shorter than a longer checksum would be.
+constexpr int short_checksum = 4;
 
 /// Counts bytes.
 class Measure : public physics::SnapshotStream<Measure> {
@@ -40,31 +41,30 @@ class Scribe : public physics::SnapshotStream<Scribe> {
 };
 
 template <class Message>
-std::vector<std::uint8_t> bytes_from(Message& message) {
+std::vector<std::uint8_t> bytes_from(Message& message, int checksum_bytes = 8) {
   physics::SnapshotWriter writer;
   exchange(writer, message);
-  return writer.finish();
+  return writer.finish(checksum_bytes);
 }
 
 template <class Message>
-bool read_whole(std::span<const std::uint8_t> bytes, Message& message) {
+bool read_whole(std::span<const std::uint8_t> bytes, Message& message, int checksum_bytes = 8) {
   physics::SnapshotReader reader(bytes);
-  return reader.is_intact() && exchange(reader, message) && reader.is_at_end();
+  return reader.is_intact(checksum_bytes) && exchange(reader, message) && reader.is_at_end();
 }
 
-template <class Item>
-std::size_t size_of() {
+template <class Message>
+std::size_t size_of(Message& message) {
   Measure measure;
-  Item item;
-  exchange(measure, item);
-  return measure.byte_count();
+  exchange(measure, message);
+  return measure.byte_count() + short_checksum;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message); }
-std::vector<std::uint8_t> written(Claims message) { return bytes_from(message); }
-std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message); }
+std::vector<std::uint8_t> written(Arrivals message) { return bytes_from(message, short_checksum); }
+std::vector<std::uint8_t> written(Claims message) { return bytes_from(message, short_checksum); }
+std::vector<std::uint8_t> written(Verdict message) { return bytes_from(message, short_checksum); }
 std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(Loss message) { return bytes_from(message); }
 std::vector<std::uint8_t> written(FaceOffWord message) { return bytes_from(message); }
@@ -73,32 +73,13 @@ bool read(std::span<const std::uint8_t> bytes, Entry& message) { return read_who
 bool read(std::span<const std::uint8_t> bytes, PartChange& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, Loss& message) { return read_whole(bytes, message); }
 bool read(std::span<const std::uint8_t> bytes, FaceOffWord& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message); }
-bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message); }
+bool read(std::span<const std::uint8_t> bytes, Arrivals& message) { return read_whole(bytes, message, short_checksum); }
+bool read(std::span<const std::uint8_t> bytes, Claims& message) { return read_whole(bytes, message, short_checksum); }
+bool read(std::span<const std::uint8_t> bytes, Verdict& message) { return read_whole(bytes, message, short_checksum); }
 
-std::size_t measured(const Arrivals& m) {
-  static const std::size_t empty = size_of<Arrivals>(), body = size_of<Arrivals::Body>(), flown = size_of<Flown>(), hold = size_of<Hold>(), key = size_of<Key>();
-  static const std::size_t glimpse = size_of<Glimpse>(), puck = size_of<Glimpse::Puck>();
-  std::size_t seen = m.glimpses.size() * glimpse;
-  for (const Glimpse& shown : m.glimpses) seen += shown.pucks.size() * puck;
-  return empty + m.bodies.size() * body + m.flown.size() * flown + m.holds.size() * hold + m.keys.size() * key + seen + checksum_size;
-}
-std::size_t measured(const Claims& m) {
-  static const std::size_t empty = size_of<Claims>(), body = size_of<Claims::Body>(), flight = size_of<ClaimedFlight>(), press = size_of<Press>();
-  return empty + m.bodies.size() * body + m.flights.size() * flight + m.presses.size() * press + checksum_size;
-}
-std::size_t measured(const Verdict& m) {
-  static const std::size_t empty = size_of<Verdict>(), goal = size_of<Goal>();
-  std::size_t said = 0;
-  if (!m.admission.is_empty()) {
-    Measure measure;
-    Admission admission = m.admission;
-    exchange(measure, admission);
-    said = measure.byte_count();
-  }
-  return empty + m.listed.size() + m.goals.size() * goal + said + checksum_size;
-}
+std::size_t measured(Arrivals& message) { return size_of(message); }
+std::size_t measured(Claims& message) { return size_of(message); }
+std::size_t measured(Verdict& message) { return size_of(message); }
 
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }
 

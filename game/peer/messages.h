@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "game/peer/box.h"
@@ -124,7 +126,7 @@ struct Admission {
 struct Verdict {
   std::uint32_t window = 0;
   bool accepts = false;
-  double halo = 0.0;                ///< m: of the next window, or, if it does not accept, with which it will repeat this one
+  float halo = 0.0f;                ///< m: of the next window, or, if it does not accept, with which it will repeat this one
   std::uint64_t at_once_max = 0;    ///< the most events at one instant
   bool was_hopeless = false;        ///< simultaneous impacts that have no solution
   std::uint64_t events = 0;         ///< with a body of the sender's own, in this run
@@ -134,7 +136,40 @@ struct Verdict {
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
   std::vector<Goal> goals{};        ///< in this run
-  Admission admission{};            ///< costs nothing where it is empty
+  Admission admission{};
+};
+
+/// A whole number of up to 64 bits, seven to a byte, lowest first, in as few bytes as it needs; the highest bit says that more follow.
+template <class Stream, class Number>
+bool exchange_short(Stream& stream, Number& number) {
+  std::uint64_t rest = number, heard = 0;
+  for (int shift = 0; shift < 64; shift += 7, rest >>= 7) {
+    std::uint64_t byte = (rest & 0x7f) | (rest > 0x7f ? 0x80 : 0);
+    if (!stream.word(byte, 1) || (shift == 63 && byte > 1) || (shift > 0 && byte == 0)) return false;
+    heard |= (byte & 0x7f) << shift;
+    if ((byte & 0x80) != 0) continue;
+    number = static_cast<Number>(heard);
+    return number == heard;
+  }
+  return false;
+}
+
+/// The first byte of what peers say in every window: which of the parts that are mostly absent follow. Its highest bit is always set, as in no other message that may come instead (Loss, Entry).
+class Head {
+ public:
+  explicit Head(std::initializer_list<bool> parts) : count_(static_cast<int>(parts.size())) {
+    int bit = 0;
+    for (const bool is_there : parts) bits_ |= static_cast<std::uint64_t>(is_there) << bit++;
+  }
+  template <class Stream>
+  bool exchange(Stream& stream) {
+    return stream.word(bits_, 1) && bits_ >> count_ == 0x80u >> count_;
+  }
+  bool has(int part) const { return (bits_ >> part & 1) != 0; }
+
+ private:
+  int count_;
+  std::uint64_t bits_ = 0x80;
 };
 
 template <class Stream>
@@ -184,14 +219,17 @@ bool exchange(Stream& stream, Claims::Body& body) {
 }
 
 template <class Stream>
+bool exchange_single(Stream& stream, float& value) {
+  auto bits = std::bit_cast<std::uint32_t>(value);
+  if (!stream.number(bits)) return false;
+  value = std::bit_cast<float>(bits);
+  return true;
+}
+
+template <class Stream>
 bool exchange(Stream& stream, ClaimedFlight& flight) {
-  const auto single = [&](float& value) {
-    auto bits = std::bit_cast<std::uint32_t>(value);
-    if (!stream.number(bits)) return false;
-    value = std::bit_cast<float>(bits);
-    return true;
-  };
-  return stream.numbers(flight.begin, flight.state) && single(flight.low_x) && single(flight.low_y) && single(flight.high_x) && single(flight.high_y);
+  return stream.numbers(flight.begin, flight.state) && exchange_single(stream, flight.low_x) && exchange_single(stream, flight.low_y) && exchange_single(stream, flight.high_x) &&
+         exchange_single(stream, flight.high_y);
 }
 
 template <class Stream, class Item>
@@ -202,6 +240,19 @@ bool exchange_list(Stream& stream, std::vector<Item>& list) {
   return true;
 }
 
+/// A list that is said to be there, which then is not empty.
+template <class Stream, class Item>
+bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
+  std::uint64_t count = list.size();
+  if (!is_there) return list.clear(), true;
+  if (!exchange_short(stream, count) || count == 0 || count > stream.count_max()) return false;
+  list.resize(count);
+  return std::all_of(list.begin(), list.end(), [&](Item& item) {
+    if constexpr (std::is_integral_v<Item>) return stream.number(item);
+    else return exchange(stream, item);
+  });
+}
+
 template <class Stream>
 bool exchange(Stream& stream, Glimpse& glimpse) {
   return stream.numbers(glimpse.bat, glimpse.owner, glimpse.time, glimpse.position.x(), glimpse.position.y(), glimpse.velocity.x(), glimpse.velocity.y()) &&
@@ -210,14 +261,16 @@ bool exchange(Stream& stream, Glimpse& glimpse) {
 
 template <class Stream>
 bool exchange(Stream& stream, Arrivals& message) {
-  return stream.number(message.window) && exchange_list(stream, message.bodies) && exchange_list(stream, message.flown) && exchange_list(stream, message.holds) &&
-         exchange_list(stream, message.keys) && exchange_list(stream, message.glimpses);
+  Head head({!message.bodies.empty(), !message.flown.empty(), !message.holds.empty(), !message.keys.empty(), !message.glimpses.empty()});
+  return head.exchange(stream) && exchange_short(stream, message.window) && exchange_part(stream, head.has(0), message.bodies) && exchange_part(stream, head.has(1), message.flown) &&
+         exchange_part(stream, head.has(2), message.holds) && exchange_part(stream, head.has(3), message.keys) && exchange_part(stream, head.has(4), message.glimpses);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Claims& message) {
-  if (!stream.numbers(message.window, message.known_count) || !exchange_list(stream, message.bodies) || !exchange_list(stream, message.flights) ||
-      !exchange_list(stream, message.presses))
+  Head head({!message.bodies.empty(), !message.flights.empty(), !message.presses.empty()});
+  if (!head.exchange(stream) || !exchange_short(stream, message.window) || !exchange_short(stream, message.known_count) || !exchange_part(stream, head.has(0), message.bodies) ||
+      !exchange_part(stream, head.has(1), message.flights) || !exchange_part(stream, head.has(2), message.presses))
     return false;
   std::size_t count = 0;
   for (const Claims::Body& body : message.bodies) count += body.flight_count;
@@ -249,18 +302,16 @@ bool exchange(Stream& stream, Admission& admission) {
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  if (!stream.number(message.window) || !stream.truth(message.accepts) || !stream.numbers(message.halo, message.at_once_max) || !stream.truth(message.was_hopeless)) return false;
-  auto further = static_cast<std::uint8_t>((message.leaves ? 1 : 0) + (message.admission.is_empty() ? 0 : 2));
-  if (!stream.number(message.events) || !stream.number(further) || further > 3) return false;
-  message.leaves = (further & 1) != 0;
-  if ((further & 2) != 0 && !exchange(stream, message.admission)) return false;
-  if (!stream.size(message.listed) || message.listed.size() > Verdict::listed_max) return false;
-  for (std::uint8_t& part : message.listed)
-    if (!stream.number(part)) return false;
-  return exchange_list(stream, message.goals);
+  Head head({message.accepts, message.was_hopeless, message.leaves, !message.listed.empty(), !message.goals.empty(), !message.admission.is_empty()});
+  if (!head.exchange(stream) || !exchange_short(stream, message.window) || !exchange_single(stream, message.halo) || !(message.halo >= 0.0f)) return false;
+  message.accepts = head.has(0), message.was_hopeless = head.has(1), message.leaves = head.has(2);
+  if (!exchange_short(stream, message.at_once_max) || !exchange_short(stream, message.events)) return false;
+  if (!exchange_part(stream, head.has(3), message.listed) || message.listed.size() > Verdict::listed_max || !exchange_part(stream, head.has(4), message.goals)) return false;
+  if (!head.has(5)) return message.admission = {}, true;
+  return exchange(stream, message.admission) && !message.admission.is_empty();
 }
 
-/// With a checksum at the end.
+/// With a checksum of four bytes at the end.
 std::vector<std::uint8_t> written(Arrivals message);
 std::vector<std::uint8_t> written(Claims message);
 std::vector<std::uint8_t> written(Verdict message);
@@ -269,10 +320,10 @@ bool read(std::span<const std::uint8_t> bytes, Arrivals& message);
 bool read(std::span<const std::uint8_t> bytes, Claims& message);
 bool read(std::span<const std::uint8_t> bytes, Verdict& message);
 
-/// How many bytes written() would make.
-std::size_t measured(const Arrivals& message);
-std::size_t measured(const Claims& message);
-std::size_t measured(const Verdict& message);
+/// How many bytes written() would make; changes nothing.
+std::size_t measured(Arrivals& message);
+std::size_t measured(Claims& message);
+std::size_t measured(Verdict& message);
 /// The state as the bytes by which states are compared.
 std::vector<std::uint8_t> bytes_of(BodyState state);
 bool are_same(BodyState a, BodyState b);

@@ -120,7 +120,7 @@ void Peer::play_keys(double until) {
 Outcome Peer::conclude() {
   bool is_hopeless = false, is_final = true, are_whole = true;
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
-    if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = halos_[peer]};
+    if (!is_present_[peer]) verdicts_[peer] = {.accepts = true, .halo = static_cast<float>(halos_[peer])};
     const Verdict& verdict = verdicts_[peer];
     is_hopeless = is_hopeless || verdict.was_hopeless, is_final = is_final && verdict.accepts;
     // Of those who are not there no two need think the same.

@@ -161,14 +161,14 @@ const Verdict& Peer::judge() {
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
   const std::uint64_t at_once_max = std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
-  verdict = {window_, is_trusted && needed <= halo, 0.0, at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
+  verdict = {window_, is_trusted && needed <= halo, 0.0f, at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
   if (verdict.accepts) {
     if (halo < infinity) usual_halo_ = std::max(halo_min_, narrowing * halo);
-    verdict.halo = usual_halo_;
+    verdict.halo = rounded_up(usual_halo_);
   } else {
-    verdict.halo = std::max(widening * halo, 1.05 * needed);
-    if (verdict.halo > halo_max_ || attempts_ >= attempts_max) verdict.halo = infinity;
-    else usual_halo_ = verdict.halo;
+    const double wider = std::max(widening * halo, 1.05 * needed);
+    if (wider > halo_max_ || attempts_ >= attempts_max) verdict.halo = std::numeric_limits<float>::infinity();
+    else usual_halo_ = wider, verdict.halo = rounded_up(wider);
   }
   counters_.verdict_bytes += measured(verdict);
   return verdict;

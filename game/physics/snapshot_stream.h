@@ -73,10 +73,11 @@ class SnapshotStream {
   }
 };
 
-inline std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325ULL;  // FNV-1a
+/// FNV-1a of 64 bits; of 4 bytes: its halves folded onto each other.
+inline std::uint64_t checksum(std::span<const std::uint8_t> bytes, int byte_count = 8) {
+  std::uint64_t sum = 0xcbf29ce484222325ULL;
   for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3ULL;
-  return sum;
+  return byte_count == 8 ? sum : (sum ^ sum >> 32) & 0xffffffffULL;
 }
 
 class SnapshotWriter : public SnapshotStream<SnapshotWriter> {
@@ -88,10 +89,10 @@ class SnapshotWriter : public SnapshotStream<SnapshotWriter> {
     return true;
   }
   static std::uint64_t count_max() { return 0xffffffff; }
-  /// All that was written, with its checksum.
-  std::vector<std::uint8_t> finish() {
-    std::uint64_t sum = checksum(bytes_);
-    word(sum, 8);
+  /// All that was written, with its checksum of 8 or 4 bytes.
+  std::vector<std::uint8_t> finish(int checksum_bytes = 8) {
+    std::uint64_t sum = checksum(bytes_, checksum_bytes);
+    word(sum, checksum_bytes);
     return std::move(bytes_);
   }
 
@@ -103,14 +104,15 @@ class SnapshotReader : public SnapshotStream<SnapshotReader> {
  public:
   explicit SnapshotReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  /// Whether the last eight bytes are the checksum of the others; they are not read again.
-  bool is_intact() {
-    if (bytes_.size() < 8) return false;
-    SnapshotReader tail(bytes_.last(8));
+  /// Whether the last 8, or 4, bytes are the checksum of the others; they are not read again.
+  bool is_intact(int checksum_bytes = 8) {
+    const auto size = static_cast<std::size_t>(checksum_bytes);
+    if (bytes_.size() < size) return false;
+    SnapshotReader tail(bytes_.last(size));
     std::uint64_t sum = 0;
-    tail.word(sum, 8);
-    bytes_ = bytes_.first(bytes_.size() - 8);
-    return sum == checksum(bytes_);
+    tail.word(sum, checksum_bytes);
+    bytes_ = bytes_.first(bytes_.size() - size);
+    return sum == checksum(bytes_, checksum_bytes);
   }
   bool word(std::uint64_t& value, int byte_count) {
     if (bytes_.size() < static_cast<std::size_t>(byte_count)) return false;

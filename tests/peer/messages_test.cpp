@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "game/peer/assembly.h"
+#include "game/peer/session.h"
+#include "game/physics/snapshot_stream.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -18,7 +20,7 @@ Arrivals some_arrivals() {
 }
 
 template <class Message>
-void expect_kept(const Message& message) {
+void expect_kept(Message message) {
   const std::vector<std::uint8_t> bytes = written(message);
   EXPECT_EQ(bytes.size(), measured(message));
   Message heard;
@@ -36,7 +38,58 @@ TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
   expect_kept(some_arrivals());
   const std::vector<ClaimedFlight> flights{{0.5, 99, 0.0f, 1.0f, 2.0f, 3.0f}, {0.6, 98}, {0.0, 0}};
   expect_kept(Claims{.window = 2, .known_count = 7, .bodies = {{4, 2, true}, {9, 1, false}}, .flights = flights, .presses = {{3, {1.0, -2.0}, 5}, {}}});
-  expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<double>::infinity(), .at_once_max = 3, .was_hopeless = true, .events = 9, .leaves = true, .listed = {0, 7, 255}});
+  expect_kept(Verdict{.window = 5, .accepts = true, .halo = std::numeric_limits<float>::infinity(), .at_once_max = 3, .was_hopeless = true, .events = 9, .leaves = true, .listed = {0, 7, 255}});
+}
+
+/// What nearly all messages among many peers are, so that it decides what these carry (docs/peer-to-peer.md, "What is said").
+TEST(Messages, ThatSayNothingTakeAFewBytes) {
+  constexpr std::size_t head = 1, window = 2, checksum = 4;
+  EXPECT_EQ(written(Arrivals{.window = 300, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}}).size(), head + window + checksum);
+  EXPECT_EQ(written(Claims{.window = 300, .known_count = 100, .bodies = {}, .flights = {}, .presses = {}}).size(), head + window + 1 + checksum);
+  EXPECT_EQ(written(Verdict{.window = 300, .accepts = true, .halo = 0.5f, .at_once_max = 2, .events = 100}).size(), head + window + 4 + 1 + 1 + checksum);
+}
+
+TEST(Messages, GrowByWhatIsThereAlone) {
+  const Verdict plain{.window = 5, .accepts = true, .halo = 0.5f};
+  Verdict verdict = plain;
+  verdict.goals = {{1.5, 7, true}};
+  expect_kept(verdict);
+  EXPECT_EQ(written(verdict).size(), written(plain).size() + 1 + 13);
+  verdict = plain, verdict.admission.reached = {3, 4};
+  expect_kept(verdict);
+  Arrivals arrivals;
+  const std::size_t nothing = written(arrivals).size();
+  arrivals.flown = {{.number = 8, .position = {1.0, 2.0}, .velocity = {3.0, 4.0}, .time = 0.5}, {}};
+  expect_kept(arrivals);
+  EXPECT_EQ(written(arrivals).size(), nothing + 1 + 2 * 44);
+}
+
+/// A loss may come instead of any of them, and all look for it in whatever they do not understand.
+TEST(Messages, OfAWindowAreNeverTakenForALossNorALossForThem) {
+  Loss loss{.step = 12, .gone = {0, 1}, .finished = {1}};
+  Arrivals arrivals;
+  Claims claims;
+  Verdict verdict;
+  EXPECT_FALSE(read(written(loss), arrivals) || read(written(loss), claims) || read(written(loss), verdict));
+  EXPECT_FALSE(read(written(some_arrivals()), loss) || read(written(Claims{}), loss) || read(written(Verdict{}), loss));
+}
+
+TEST(Messages, WithAPartThatIsSaidToBeThereAndIsEmptyAreRefused) {
+  physics::SnapshotWriter writer;
+  for (std::uint64_t byte : {0x80u | 2u, 3u, 0u}) writer.word(byte, 1);  // flights of bodies, window 3, none
+  Arrivals arrivals;
+  EXPECT_FALSE(read(writer.finish(4), arrivals));
+}
+
+TEST(Messages, KeepNumbersOfAnyLength) {
+  for (const std::uint64_t events : {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{1} << 32, ~std::uint64_t{0}}) {
+    const Verdict verdict{.window = 0xffffffff, .events = events};
+    expect_kept(verdict);
+    Verdict heard;
+    ASSERT_TRUE(read(written(verdict), heard));
+    EXPECT_EQ(heard.events, events);
+    EXPECT_EQ(heard.window, 0xffffffffu);
+  }
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {

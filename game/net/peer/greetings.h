@@ -13,7 +13,7 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 6;
+inline constexpr std::uint32_t peer_protocol_version = 7;
 inline constexpr std::uint32_t peers_max = 64;
 
 /// The first byte of every frame.

@@ -236,7 +236,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 
 /// Everybody has told everybody what it has, and what its players did.
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
-  const std::vector<peer::Arrivals> parts = session.end();
+  std::vector<peer::Arrivals> parts = session.end();
   if (session.has_left()) return;
   const physics::World& whole = start_.world();
   const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
