@@ -9,8 +9,15 @@
 
 namespace rink::peer {
 
-Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail)
-    : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
+Whole Whole::of(const physics::World& world) {
+  Whole whole{.spec = world.spec(), .body_count = world.body_count()};
+  if (whole.spec.field.goal_width == 0.0) return whole;
+  for (std::uint32_t body = 0; body < whole.body_count; ++body) whole.puck_radii.push_back(world.kind({body}) == physics::BodyKind::puck ? world.radius({body}) : 0.0);
+  return whole;
+}
+
+Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken)
+    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
       division_(cuts.division(settings_.peer_count)) {
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
   now_.slots = now_.next_number = settings_.peer_count;
@@ -18,12 +25,18 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   for (const Player& player : now_.players) now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
   before_ = now_;
   make_room(now_.slots);
-  peer_.emplace(whole.spec(), division_, settings_.number, whole.body_count(), settings_.halo);
-  for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer_->consider(body, physics::Portion::state_in(whole, body));
+  std::vector<Arrivals::Body> near;
+  for (std::uint32_t body = 0; body < whole_.body_count; ++body)
+    if (division_.is_near(settings_.number, Box::around(whole.position({body}), whole.half_extent({body})), settings_.halo) || division_.owner_of(whole.position({body})) == settings_.number)
+      near.push_back({body, physics::Portion::state_in(whole, body)});
+  if (settings_.is_mirrored) keep_first_parts(whole);
+  if (when_taken) when_taken();
+  peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
+  for (const auto& [body, state] : near) peer_->consider(body, state);
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
     for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
-  if (settings_.is_mirrored) peer_->keep_changes(), keep_first_parts();
+  if (settings_.is_mirrored) peer_->keep_changes();
   peer_->begin(settings_.end_of(1));
 }
 
@@ -39,12 +52,12 @@ void Session::halt(const std::string& what) const {
 }
 
 /// Everybody knows how it begins.
-void Session::keep_first_parts() {
+void Session::keep_first_parts(const physics::World& whole) {
   for (const PeerNumber peer : now_.members) {
     if (peer != settings_.number && mirror_of(peer, now_) != settings_.number) continue;
     PartChange part{.step = 0, .time = 0.0, .is_whole = true, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
-    for (std::uint32_t body = 0; body < whole_.body_count(); ++body)
-      if (division_.owner_of(whole_.position({body})) == peer) part.bodies.push_back({body, physics::Portion::state_in(whole_, body)});
+    for (std::uint32_t body = 0; body < whole_.body_count; ++body)
+      if (division_.owner_of(whole.position({body})) == peer) part.bodies.push_back({body, physics::Portion::state_in(whole, body)});
     mirrors_[peer].add(std::move(part));
   }
 }
@@ -193,7 +206,7 @@ void Session::mirror(const State& next, PartChange change) {
   for (const PeerNumber from : next.members) {
     if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
     auto kept = heard<PartChange>(from);
-    const bool is_good = kept.step == next.step && std::all_of(kept.bodies.begin(), kept.bodies.end(), [&](const Arrivals::Body& body) { return body.number < whole_.body_count(); });
+    const bool is_good = kept.step == next.step && std::all_of(kept.bodies.begin(), kept.bodies.end(), [&](const Arrivals::Body& body) { return body.number < whole_.body_count; });
     if (!is_good || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
   }
 }

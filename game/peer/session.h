@@ -47,6 +47,15 @@ struct SessionSettings {
   WindowHooks hooks{};                      ///< for what goes on beside the windows; its `when_final` is the session's own
 };
 
+/// What a session has to know of all bodies, wherever they are.
+struct Whole {
+  physics::WorldSpec spec;
+  std::uint32_t body_count = 0;
+  std::vector<double> puck_radii{};  ///< m, by body, 0 of all that are no pucks; empty where there are no goals, for nobody else's pucks matter then
+  static Whole of(const physics::World& world);
+  bool has_puck(std::uint32_t body) const { return body < puck_radii.size() && puck_radii[body] > 0.0; }
+};
+
 struct SessionCounters {
   PeerCounters peer;
   std::uint64_t mirror_bytes = 0, recovery_bytes = 0;  ///< sent
@@ -59,8 +68,8 @@ struct SessionCounters {
 /// the last step that all have. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
 class Session {
  public:
-  /// `whole` is at its start, and must outlive the session.
-  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail);
+  /// `whole` is at its start. It is asked for no more once `when_taken` is called, if that is not empty, before there is room for the own part: whoever needs memory may give it up there.
+  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken = {});
   /// Of a newcomer, who is a candidate and has been told of these members: waits until it is one of them. Throws SentAway if it does not get that far, until its first window is over.
   Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members);
 
@@ -112,7 +121,7 @@ class Session {
   void balance(State& next) const;
   void mirror(const State& next, PartChange change);
   std::optional<PeerNumber> mirror_of(PeerNumber peer, const State& state) const;
-  void keep_first_parts();
+  void keep_first_parts(const physics::World& whole);
   void make_room(PeerNumber slots);
   void adopt(State next);
   [[noreturn]] void halt(const std::string& what) const;
@@ -152,7 +161,7 @@ class Session {
 
   SessionSettings settings_;
   Mail& mail_;
-  const physics::World& whole_;
+  Whole whole_;
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;

@@ -16,7 +16,7 @@ void Session::count_goals(State& next) const {
   for (const PeerNumber peer : now_.members) {
     for (const Goal& goal : peer_->verdict_of(peer).goals) {
       const auto is_of_it = [&](const auto& other) { return other.puck == goal.puck; };
-      const bool can_be = goal.puck < whole_.body_count() && whole_.kind({goal.puck}) == physics::BodyKind::puck && goal.time >= now_.time - 1e-9 && goal.time <= next.time + 1e-9 &&
+      const bool can_be = whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 && goal.time <= next.time + 1e-9 &&
                           std::none_of(goals.begin(), goals.end(), is_of_it) && std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
       if (!can_be) give_up(peer, "peer " + std::to_string(peer) + " tells of a goal that cannot be");
       goals.push_back(goal);
@@ -37,7 +37,7 @@ void Session::face_off(State& next) {
 /// Each knows whom it has, and together they know all: a place is free if it is for everybody. False if none is.
 bool Session::put_back(const FaceOff& due) {
   constexpr std::size_t asked = 64;
-  const double radius = whole_.radius({due.puck});
+  const double radius = whole_.puck_radii[due.puck];
   for (std::size_t first = 0;; first += asked) {
     const std::vector<Vector2> places = settings_.goals->places(due.is_left, radius, first, asked);
     if (places.empty()) return false;

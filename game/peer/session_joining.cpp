@@ -114,7 +114,7 @@ void Session::greet(const State& next) {
 }
 
 Session::Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members)
-    : settings_(std::move(settings)), mail_(mail), whole_(whole), now_{.cuts = Cuts::whole(whole.spec().field)}, before_(now_), division_(now_.division()), is_newcomer_(true) {
+    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), now_{.cuts = Cuts::whole(whole.spec().field)}, before_(now_), division_(now_.division()), is_newcomer_(true) {
   assert(settings_.is_mirrored && !members.empty());
   enter_late(std::move(members));
 }
@@ -127,7 +127,7 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
       Loss loss;
       if (read(bytes, entry)) {
         const State& state = entry.state;
-        const bool has_pucks = std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(), [&](const FaceOff& due) { return due.puck < whole_.body_count(); });
+        const bool has_pucks = std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(), [&](const FaceOff& due) { return whole_.has_puck(due.puck); });
         if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) || state.window + 2 > settings_.window_count)
           throw ProtocolError("peer " + std::to_string(from.front()) + " tells of a beginning that cannot be");
         teller_ = from.front();

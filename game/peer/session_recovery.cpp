@@ -179,7 +179,7 @@ void Session::rebuild() {
 /// A new peer in the place of the old one, from the shares of all.
 void Session::enter(const State& next, std::span<const Arrivals> shares) {
   if (peer_) counters_.peer += peer_->counters();
-  peer_.emplace(whole_.spec(), division_, settings_.number, whole_.body_count(), settings_.halo);
+  peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
   for (PeerNumber peer = 0; peer < next.slots; ++peer) peer_->set_present(peer, next.has(peer));
   for (const Player& player : next.players)
     if (next.has(player.peer))

@@ -18,6 +18,22 @@ TEST(Session, HasTheStatesOfOneEngineWithoutALoss) {
   }
 }
 
+/// So whoever needs memory may give it up before the session makes room for its own part.
+TEST(Session, AsksForTheWholeNoMoreOnceItHasTakenItsPart) {
+  constexpr std::uint64_t window_count = 10;
+  SharedScene truth = shared_scene(0, 0.1);
+  auto start = std::make_unique<SharedScene>(shared_scene(0, 0.1));
+  LossyOffice office(1);
+  LossyMail mail(office, 0, {}, {}, [](std::uint64_t) {});
+  SessionSettings settings{.number = 0, .peer_count = 1, .halo = 0.2, .window_count = window_count, .end_of = {}};
+  settings.end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); };
+  Session session(start->world, Cuts::whole(truth.world.spec().field), std::move(settings), mail, [&] { start.reset(); });
+  ASSERT_EQ(start, nullptr);
+  while (!session.is_over()) session.advance();
+  physics::test::RandomKeys::advance(truth.world, window_length * static_cast<double>(window_count));
+  EXPECT_EQ(hash_of_whole(truth.world.spec(), truth.world.body_count(), session.end()), truth.world.hash());
+}
+
 TEST(Session, GoesOnWhereverInTheProtocolAPeerIsKilled) {
   std::uint64_t recoveries = 0, shifts = 0;
   for (std::uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {

@@ -61,14 +61,14 @@ std::string player_names() {
 }
 
 game::SharedGame game_of(const Options& options) {
-  const game::Scene scene = game::chosen_scene({.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed});
+  game::Scene scene = game::chosen_scene({.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed});
   std::vector<game::InputEvent> recorded;
   if (!options.keys.empty()) {
     game::KeyLog log = game::read_key_log(std::filesystem::path(options.keys));
     game::require_fit(log, scene, options.keys);
     recorded = std::move(log.events);
   }
-  return game::SharedGame(scene, recorded);
+  return game::SharedGame(std::move(scene), recorded);
 }
 
 /// Goes last, where readers look for it.
@@ -165,7 +165,7 @@ class Pace {
   std::optional<double> offset_s_;
 };
 
-game::PlayedPart play(const Options& options, const game::SharedGame& shared, game::Meeting& meeting, const game::Viewing& viewing, double start_s) {
+game::PlayedPart play(const Options& options, game::SharedGame& shared, game::Meeting& meeting, const game::Viewing& viewing, double start_s) {
   // Whoever measures how old a window is when it is known plays it when its end has come, as a server its ticks.
   Pace pace(viewing.witness ? std::optional(start_s + meeting.terms().window) : std::nullopt);
   game::Manner manner{.players = options.players,
@@ -173,7 +173,10 @@ game::PlayedPart play(const Options& options, const game::SharedGame& shared, ga
                       .wants_to_leave = [] { return game::is_interrupted != 0; },
                       .tell = [](const std::string& what) { spdlog::warn("{}", what); },
                       .members = meeting.members(),
+                      .when_taken = {},
                       .listener = viewing.viewer.get()};
+  // Who shows what others have looks up there what bodies are.
+  if (!viewing.viewer) manner.when_taken = [&shared] { shared.forget_start(); };
   manner.before_window = [&](double time) {
     meeting.note_window();
     if (options.pace == "realtime") meeting.rest_until(pace.clock_s(time));
@@ -197,7 +200,7 @@ game::ExitStatus report(const Options& options, const game::SharedGame& shared, 
 }
 
 /// From the first word to the last; whoever is connected is told why it ends early. Throws peer::SentAway of a newcomer that may ask again.
-game::ExitStatus share(const Options& options, const game::Terms& terms, const game::SharedGame& shared, game::Meeting& meeting) {
+game::ExitStatus share(const Options& options, const game::Terms& terms, game::SharedGame& shared, game::Meeting& meeting) {
   try {
     meet(options, terms, meeting);
     const game::Viewing viewing = game::make_viewing(shared, meeting, options.viewing, now_s);
@@ -250,7 +253,7 @@ game::ExitStatus share_among_ranks(Options options) {
     throw std::invalid_argument("--listen, --join, --peers: with --transport mpi the launcher says how many there are and brings them together (mpirun -np 4): expected none of these");
   if (options.bots > 0 || !options.record.empty() || options.pace != "free" || options.terms.is_seated || options.terms.interest.is_wanted())
     throw std::invalid_argument("--bots, --record, --pace, --scheme, --seated: ranks of --transport mpi only compute, as fast as they can: expected none of these");
-  const game::SharedGame shared = game_of(options);
+  game::SharedGame shared = game_of(options);
   rti::Ranks ranks;
   options.terms.peer_count = ranks.count();
   options.terms.balance_windows = 0;  // zones stay: ranks have said nothing of that to each other
@@ -266,8 +269,7 @@ game::ExitStatus share_among_ranks(Options options) {
   }
   try {
     const double start_s = now_s();
-    game::Manner manner;
-    manner.players = options.players;
+    const game::Manner manner{.players = options.players, .before_window = {}, .wants_to_leave = {}, .tell = {}, .when_taken = [&shared] { shared.forget_start(); }};
     const game::PlayedPart part = shared.play(options.terms, std::vector<game::Guest>(ranks.count()), mail.number(), mail, manner);
     Json report = report_of(part, mail, 0, now_s() - start_s);
     add_hash(report, part);
@@ -290,7 +292,7 @@ game::ExitStatus run(const Options& options) {
   game::require_writable("--evidence", options.viewing.evidence);
   if (!options.viewing.evidence.empty() && (options.pace != "realtime" || options.transport == "mpi")) throw std::invalid_argument("--evidence: latencies are those of the clock: expected --pace realtime, and no mpi");
   if (options.transport == "mpi") return share_among_ranks(options);
-  const game::SharedGame shared = game_of(options);
+  game::SharedGame shared = game_of(options);
   if (options.join.empty()) shared.require_window(options.terms.window);
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
@@ -318,6 +320,7 @@ game::ExitStatus run(const Options& options) {
       spdlog::warn("{}; {}", sent.what(), tries < tries_max ? "asking again" : "that was the last try");
       if (tries == tries_max) return game::ExitStatus::not_admitted;
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      if (!shared.has_start()) shared = game_of(options);
     }
   }
 }

@@ -6,6 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#if defined(__linux__)
+#include <malloc.h>
+#endif
+
 #include "game/control/free_place.h"
 #include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
@@ -53,11 +57,26 @@ class Membership {
 
 }  // namespace
 
-SharedGame::SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded) : scene_(scene), keys_(merged(scene.keys, recorded)), start_(scene) {
+SharedGame::SharedGame(Scene scene, const std::vector<InputEvent>& recorded) : scene_(std::move(scene)), keys_(merged(scene_.keys, recorded)), start_(scene_) {
+  for (const Entity& entity : start_.entities()) {
+    extent_max_ = std::max(extent_max_, entity.half_extent.maxCoeff());
+    speed_max_ = std::max(speed_max_, start_.velocity(entity.id).norm());
+  }
   for (const InputEvent& key : keys_)
     if (key.kind == InputKind::enter || key.kind == InputKind::leave)
       throw SceneError("player " + std::to_string(key.player) + (key.kind == InputKind::enter ? " enters" : " leaves") + " at " + std::to_string(key.time) +
                        " s, and peers cannot yet add or remove bats: expected keys alone");
+}
+
+void SharedGame::forget_start() {
+  forgotten_ = static_cast<std::uint32_t>(start_.entities().size());
+  // Posts and bats come before pucks, so they keep their numbers.
+  std::vector<Puck> pucks = std::exchange(scene_.bodies.pucks, {});
+  start_ = Game(scene_);
+  scene_.bodies.pucks = std::move(pucks);
+#if defined(__GLIBC__)
+  malloc_trim(0);  // or else what is free stays with the process
+#endif
 }
 
 Luggage SharedGame::luggage() const {
@@ -75,14 +94,7 @@ peer::Cuts SharedGame::cuts(peer::PeerNumber peer_count) const {
 }
 
 /// Two large bodies side by side, and what the fastest of them fly in a window; peers widen or narrow it as they go.
-double SharedGame::first_halo(double window) const {
-  double extent = 0.0, speed = 0.0;
-  for (const Entity& entity : start_.entities()) {
-    extent = std::max(extent, entity.half_extent.maxCoeff());
-    speed = std::max(speed, start_.velocity(entity.id).norm());
-  }
-  return 4.0 * extent + 2.0 * speed * window + 1e-3;
-}
+double SharedGame::first_halo(double window) const { return 4.0 * extent_max_ + 2.0 * speed_max_ * window + 1e-3; }
 
 /// As Game's: on the spot of the side that conceded, or at the nearest free place.
 std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
@@ -119,7 +131,9 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   for (const InputEvent& event : keys)
     if (event.time <= until) players[event.player].press(event.key, event.kind == InputKind::key_down);
   for (const BatController& player : players) hands.push_back(&player);
-  StateHash hash = begun_game_hash(world, start_.entities(), hands, {scoring.left, scoring.right});
+  std::vector<Entity> all(start_.entities().begin(), start_.entities().end());
+  for (auto number = static_cast<std::uint32_t>(all.size()); number < forgotten_; ++number) all.push_back({.id = {number}, .player = std::nullopt});
+  StateHash hash = begun_game_hash(world, all, hands, {scoring.left, scoring.right});
   for (const peer::FaceOff& due : scoring.face_offs) hash.add(due.time), hash.add(std::uint64_t{due.puck});
   return hash.value();
 }
@@ -162,7 +176,7 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Arrivals> lo
   std::vector<InputEvent> keys;
   for (const peer::Arrivals& log : logs)
     for (const peer::Key& key : log.keys) {
-      if (key.bat >= start_.world().body_count() || !start_.entity({key.bat}).player || key.input == 0) throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) + ", which nobody plays");
+      if (!start_.is_there({key.bat}) || !start_.entity({key.bat}).player || key.input == 0) throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) + ", which nobody plays");
       keys.push_back(event_of(key.input, key.time, *start_.entity({key.bat}).player));
     }
   return merged(keys_, keys);
@@ -188,7 +202,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   if (terms.is_seated && terms.peer_count > start_.player_count()) throw peer::ProtocolError("there are more peers than bats, and each is to have one in its zone");
   if (manner.members.empty()) settings.players = players(terms, guests);
   std::optional<peer::Session> made;
-  if (manner.members.empty()) made.emplace(start_.world(), terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count), std::move(settings), mail);
+  if (manner.members.empty()) made.emplace(start_.world(), terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count), std::move(settings), mail, manner.when_taken);
   else made.emplace(start_.world(), std::move(settings), mail, manner.members);
   peer::Session& session = *made;
   const Guest& self = guests[number];
@@ -238,8 +252,8 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   std::vector<peer::Arrivals> parts = session.end();
   if (session.has_left()) return;
-  const physics::World& whole = start_.world();
-  const auto world = peer::hash_of_whole(whole.spec(), whole.body_count(), parts);
+  const physics::World& own = session.peer().world();
+  const auto world = peer::hash_of_whole(own.spec(), own.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
   part.result_bytes = measured(parts[session.peer().number()]) * (session.members().size() - 1);
   part.keys = keys_with(parts);

@@ -66,6 +66,7 @@ struct Manner {
   std::function<void(const std::string&)> tell;  ///< the user, of losses and newcomers
   Onlooker* onlooker = nullptr;                  ///< or nobody
   std::vector<peer::PeerNumber> members{};       ///< of a newcomer while others play: whom it was told of
+  std::function<void()> when_taken{};            ///< where bodies are at the start is asked for no more: SharedGame::forget_start may be called
   WindowListener* listener = nullptr;
 };
 
@@ -73,7 +74,7 @@ struct Manner {
 class SharedGame {
  public:
   /// `recorded` keys come beside the scene's own. Throws SceneError for what peers cannot share: players who enter or leave, and pucks that would come back sooner than agreed upon.
-  SharedGame(const Scene& scene, const std::vector<InputEvent>& recorded);
+  SharedGame(Scene scene, const std::vector<InputEvent>& recorded);
 
   Luggage luggage() const;
   std::uint32_t bat_count() const { return start_.player_count(); }
@@ -95,6 +96,9 @@ class SharedGame {
   /// What playing it is made of, for those who do so step by step: the game at its start; a peer that owns its part by `division` and knows all keys, whose first window ends with
   /// the first `window` [s]; and Game::hash() of a world that has come to `until` [s] under the keys that all know.
   const Game& start() const { return start_; }
+  /// Gives up where bodies are at the start. Until the end of a play() that has called `when_taken` that is all it takes; nothing else may be begun with this game.
+  void forget_start();
+  bool has_start() const { return forgotten_ == 0; }
   std::unique_ptr<peer::Peer> peer(const peer::Division& division, peer::PeerNumber number, double window) const;
   std::uint64_t hash(std::uint64_t world, double until) const { return hash(world, keys_, until, {}); }
 
@@ -110,7 +114,9 @@ class SharedGame {
 
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them
-  Game start_;                    ///< never advanced
+  Game start_;                    ///< never advanced; without pucks once it is given up
+  std::uint32_t forgotten_ = 0;   ///< then: how many entities there were, numbered from 0
+  double extent_max_ = 0.0, speed_max_ = 0.0;  ///< of all bodies then [m, m/s]
 };
 
 }  // namespace rink::game
