@@ -21,11 +21,11 @@ using peer::PeerNumber;
 
 constexpr PeerNumber peer_count = 2;
 
-/// Collisions per disc and second at mean speed 1 by Enskog's theory.
+/// Collisions in which a disc takes part per second, at mean speed 1, by Enskog's theory: a disc sweeps twice its diameter at the mean relative speed, the root of two. Each is one of two discs.
 double collision_rate(double packing) {
   constexpr double radius = 0.04;  // m
   const double density = packing / (std::numbers::pi * radius * radius), crowding = (1.0 - 7.0 / 16.0 * packing) / std::pow(1.0 - packing, 2);
-  return std::sqrt(2.0) * 2.0 * radius * density * crowding;
+  return std::sqrt(2.0) * 4.0 * radius * density * crowding;
 }
 
 physics::World gas(std::uint32_t count, double packing) {
@@ -113,13 +113,14 @@ class Couple {
 
 /// Both play the same windows; the first ones, in which halos find their width, are not timed. One iteration, for the two must be of one state.
 void share(benchmark::State& state, std::uint32_t count, double packing) {
-  const double window = 0.2 / collision_rate(packing);
+  const double window = 0.4 / collision_rate(packing);
   const int warm_up = 10, timed = 50;
   for (auto _ : state) {
     physics::World whole = gas(count, packing);
     Couple couple(whole, window);
     whole.advance(window * warm_up);
     couple.play(warm_up);
+    const std::uint64_t impacts_before = whole.counters().disc_impacts;
     const double begin = real_s(), processor_begin = thread_s();
     whole.advance(window * (warm_up + timed));
     const double alone_processor_s = thread_s() - processor_begin, alone_s = real_s() - begin;
@@ -148,6 +149,7 @@ void share(benchmark::State& state, std::uint32_t count, double packing) {
     state.counters["shared_real_s"] = shared_s, state.counters["busier_processor_s"] = busier_s;
     state.counters["speed_up"] = alone_s / shared_s;
     state.counters["speed_up_by_processor_time"] = alone_processor_s / busier_s;
+    state.counters["collisions_per_body_and_window"] = 2.0 * static_cast<double>(whole.counters().disc_impacts - impacts_before) / (static_cast<double>(count) * timed);
     state.counters["repeated_share"] = repeats / (timed * peer_count);
     state.counters["bytes_per_border_body_and_window"] = bytes / border;
     state.counters["border_bodies"] = border / (timed * peer_count);
