@@ -226,11 +226,10 @@ void LineIndex::ask_further(std::span<const Visit> visits, std::size_t i) const 
 
 /// Reads the lines that were asked for.
 template <class Compare>
-void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers, const Compare& compare) const {
-  const auto compare_with = [&](const Line& line, const Visit& visit, std::uint32_t count) {
-    answers.candidate_count += count;
-    const LineOutcome outcome = compare(line, visit.asking);
-    if ((outcome.changed | outcome.tied) == 0) return;
+void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
+  const auto compare_with = [&](const Line& line, const Visit& visit, const Compare& compare) {
+    const LineOutcome outcome = compare(line);
+    if ((outcome.changed | outcome.tied) == 0) [[likely]] return;
     const std::uint64_t asker = std::uint64_t{askers.probe(visit.asker).id} << 32;
     for (unsigned rest = outcome.changed & ~outcome.tied; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(rest));
@@ -250,10 +249,13 @@ void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const Regio
     const Visit& visit = visits[i];
     if (is_crowded) ask_further(visits, i);
     const Line& line = lines_[visit.line];
-    compare_with(line, visit, line.count());
+    const Compare compare(visit.asking);
+    answers.candidate_count += line.count();
+    compare_with(line, visit, compare);
     if (!line.has_more()) continue;
     const Run run = runs_[visit.line];
-    for (std::uint32_t further = run.first; further < run.first + run.size; ++further) compare_with(lines_[further], visit, lanes);
+    answers.candidate_count += std::uint64_t{run.size} * lanes;
+    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) compare_with(*further, visit, compare);
   }
   answers.visits.clear();
   for (const std::uint64_t doubt : answers.doubts.span()) {
@@ -264,20 +266,20 @@ void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const Regio
 }
 
 template <class Compare>
-void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers, const Compare& compare) const {
+void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
   for (std::size_t first = begin; first < end; first += block_size) {
     for (std::size_t i = first; i < std::min(first + block_size, end); ++i) {
       visit(askers.probe(i), static_cast<std::uint32_t>(i), answers.visits);
-      if (answers.visits.size() >= visit_max) read(askers, judge, regions, answers, compare);
+      if (answers.visits.size() >= visit_max) read<Compare>(askers, judge, regions, answers);
     }
-    read(askers, judge, regions, answers, compare);
+    read<Compare>(askers, judge, regions, answers);
   }
 }
 
 void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Instructions instructions,
                              Answers& answers) const {
-  if (instructions == Instructions::scalar) return find_changes(askers, begin, end, judge, regions, answers, compare_one_by_one);
-  find_changes(askers, begin, end, judge, regions, answers, [](const Line& line, std::uint64_t asking) { return compare_by_sse2(line, asking); });
+  if (instructions == Instructions::scalar) find_changes<OneByOne>(askers, begin, end, judge, regions, answers);
+  else find_changes<BySse2>(askers, begin, end, judge, regions, answers);
 }
 
 std::size_t LineIndex::bytes() const {

@@ -73,11 +73,11 @@ class LineIndex {
   void grow_run(std::uint32_t cell);
   std::uint32_t take_run(std::uint32_t size);
   template <class Compare>
-  void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers, const Compare& compare) const;
+  void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
   void visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& visits) const;
   void ask_further(std::span<const Visit> visits, std::size_t i) const;
   template <class Compare>
-  void read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers, const Compare& compare) const;
+  void read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
 
   Projection projection_;
   bool is_built_ = false, has_grown_ = false;
