@@ -207,6 +207,19 @@ TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionT
   EXPECT_FALSE(own.filter_precision) << "his own bat is in no count, and nothing else is chosen";
 }
 
+/// Under a budget that holds less than what enters, a player hears that somebody came long before he hears where: until then he holds nothing.
+TEST_F(VirtualRunTest, WhoIsInScopeButWasNotToldWhereIsNotDelivered) {
+  experiment_.schemes = {"region", "region with priority(budget=20)"};
+  experiment_.view_fractions = {0.5};
+  settings_.wants_truth = true;
+  const std::vector<Cell> cells = cells_of(experiment_);
+  const RunRecord all = run(cells[0]), few = run(cells[1]);
+  EXPECT_EQ(all.truth.filter_recall, few.truth.filter_recall) << "the same decisions";
+  EXPECT_GT(*all.truth.delivered_recall, 0.95);
+  EXPECT_LT(*few.truth.delivered_recall, *all.truth.delivered_recall - 0.01);
+  EXPECT_LT(*few.truth.displayed_error_mm.rms, 1000.0) << "nobody is shown where he was before he was known";
+}
+
 TEST_F(VirtualRunTest, AnInterruptEndsItWithoutARecord) {
   const std::atomic<bool> is_interrupted = true;
   settings_.is_interrupted = &is_interrupted;
