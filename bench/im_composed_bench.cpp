@@ -121,6 +121,9 @@ bool is_in_sight(const Scene& scene, std::size_t s, std::size_t e) {
 using Rule = bool (*)(Scene&, std::size_t s, std::size_t e, bool was);
 
 bool is_in_aura(Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_disc(scene.subscriptions[s], scene.updates[e]); }
+bool is_in_corner(Scene& scene, std::size_t s, std::size_t e, bool) {
+  return overlaps(scene.subscriptions[s], scene.updates[e]) && !is_in_disc(scene.subscriptions[s], scene.updates[e]);
+}
 bool is_in_diamond(Scene& scene, std::size_t s, std::size_t e, bool) {
   const im::Region &mine = scene.subscriptions[s], &its = scene.updates[e];
   const Point eye = eye_of(mine);
@@ -146,7 +149,7 @@ const Case cases[] = {
     {"sight", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_sight(scene, s, e); }},
     {"aura and sight", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_disc(scene.subscriptions[s], scene.updates[e]) && is_in_sight(scene, s, e); }},
     {"sight or cone", [](Scene& scene, std::size_t s, std::size_t e, bool) { return is_in_sight(scene, s, e) || is_in_cone(scene, s, e); }},
-    {"region and not aura", [](Scene& scene, std::size_t s, std::size_t e, bool) { return overlaps(scene.subscriptions[s], scene.updates[e]) && !is_in_disc(scene.subscriptions[s], scene.updates[e]); }},
+    {"region and not aura", is_in_corner},
     {"not region", [](Scene& scene, std::size_t s, std::size_t e, bool) { return !overlaps(scene.subscriptions[s], scene.updates[e]); }},
     {"region with hysteresis(margin=0.3)", steadied},
     {"region with dwell(matches=10)", dwells},
