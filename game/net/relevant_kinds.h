@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@ class RelevantKinds {
  public:
   void add(physics::BodyKind kind) { has_[static_cast<std::size_t>(kind)] = true; }
   bool has(physics::BodyKind kind) const { return has_[static_cast<std::size_t>(kind)]; }
+  /// Bit k: kind k.
+  static constexpr std::uint8_t bits_max = 7;
+  std::uint8_t bits() const { return static_cast<std::uint8_t>(has_[0] | has_[1] << 1 | has_[2] << 2); }
+  static RelevantKinds of_bits(std::uint8_t bits) {
+    RelevantKinds kinds;
+    for (std::size_t kind = 0; kind < kinds.has_.size(); ++kind) kinds.has_[kind] = (bits >> kind & 1) != 0;
+    return kinds;
+  }
 
  private:
   std::array<bool, 3> has_{};

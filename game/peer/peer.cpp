@@ -344,6 +344,11 @@ void Peer::settle(std::vector<std::uint32_t> candidates) {
   for (const std::vector<std::uint32_t>& known : known_) counters_.border_windows += known.size();
 }
 
+void Peer::end_at(double until) {
+  keys_.insert(keys_.end(), due_.begin(), due_.end());
+  share_keys(until);
+}
+
 /// The keys of the window that ends at `until`, and those that stay with us till later.
 void Peer::share_keys(double until) {
   end_ = until;

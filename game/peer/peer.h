@@ -107,6 +107,8 @@ class Peer {
   void hear(PeerNumber from, Arrivals arrivals) { arrivals_[from] = std::move(arrivals); }
   void replay();
   void commit(double until);
+  /// After it, and before anything is played: the window that is prepared ends so soon instead [s].
+  void end_at(double until);
 
   PeerNumber number() const { return number_; }
   double now() const { return portion_.world().now(); }

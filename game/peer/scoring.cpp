@@ -2,6 +2,7 @@
 #include "game/peer/scoring.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace rink::peer {
@@ -16,6 +17,11 @@ void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
     if (is_over) face_offs.clear();
     else schedule({goal.time + rules.face_off_delay, goal.puck, goal.is_left});
   }
+}
+
+double Scoring::next_after(double time) const {
+  const auto due = std::find_if(face_offs.begin(), face_offs.end(), [time](const FaceOff& one) { return one.time > time; });
+  return due == face_offs.end() ? std::numeric_limits<double>::infinity() : due->time;
 }
 
 void Scoring::schedule(const FaceOff& due) {

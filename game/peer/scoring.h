@@ -38,6 +38,8 @@ struct Scoring {
   void schedule(const FaceOff& due);
   /// When the next puck is due [s]; never, if none is.
   double next() const { return face_offs.empty() ? std::numeric_limits<double>::infinity() : face_offs.front().time; }
+  /// Likewise, of those that are due after `time`.
+  double next_after(double time) const;
 };
 
 /// What one peer says of a puck that is due: which of 64 places are taken, by what it has; and the puck, if it owns it.

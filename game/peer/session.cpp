@@ -139,6 +139,8 @@ void Session::play_stretch() {
   hooks.when_final = enter_next;
   play_steps(*peer_, next_end, exchange_all, agree_all, hooks);
   if (settings_.goals) face_off(next);
+  // A puck that found no place is due again, where rounding can put that a little before the end of the window.
+  if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
   if (settings_.is_mirrored) {
     PartChange change = peer_->change(false);
     for (const PeerNumber leaver : now_.members)

@@ -43,7 +43,6 @@ struct SessionSettings {
   std::vector<Player> players{};            ///< of those who begin
   std::uint32_t bat_count = 0;              ///< that can be played
   std::function<std::vector<Seat>(const Player&)> seats_of{};
-  bool is_closed = false;                   ///< nobody is let in while they play
   WindowHooks hooks{};                      ///< for what goes on beside the windows; its `when_final` is the session's own
 };
 
@@ -98,9 +97,14 @@ class Session {
   /// Who plays on.
   const std::vector<PeerNumber>& members() const { return now_.members; }
   const Division& division() const { return division_; }
+  /// Who plays which bats, those who are gone among them; and above all numbers of members.
+  const std::vector<Player>& players() const { return now_.players; }
+  PeerNumber slots() const { return now_.slots; }
   /// Everybody who was lost, and what was said of the last.
   const std::vector<PeerNumber>& lost() const { return gone_; }
   const std::string& last_loss() const { return last_loss_; }
+  /// Somebody is lost, and with the next call of `advance` windows may be undone.
+  bool is_recovering() const { return must_recover_; }
 
  private:
   struct Sent {
@@ -133,6 +137,7 @@ class Session {
   std::optional<std::string> objection(const State& next, const Newcomer& newcomer) const;
   void greet(const State& next);
   void enter_late(std::vector<PeerNumber> members);
+  bool is_in_time(const State& state) const;
   std::optional<Entry> first_entry(std::vector<PeerNumber> from);
   void hear_same(const Entry& entry);
 

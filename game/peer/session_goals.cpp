@@ -6,8 +6,8 @@
 
 namespace rink::peer {
 
-/// A window ends where it is to, but is cut where a puck comes back. `state` is where the next stretch begins.
-double Session::stretch_end(const State& state) const { return std::min(settings_.end_of(state.window + 1), state.scoring.next()); }
+/// A window ends where it is to, but is cut where a puck comes back. `state` is where the next stretch begins, with which what is due there comes back.
+double Session::stretch_end(const State& state) const { return std::min(settings_.end_of(state.window + 1), state.scoring.next_after(state.time)); }
 
 /// By what all have said with their verdicts, when these are final.
 void Session::count_goals(State& next) const {

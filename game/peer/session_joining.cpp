@@ -48,7 +48,6 @@ void Session::give_zones(State& next) const {
 
 /// Why a newcomer cannot be a candidate at the step that leads to `next`.
 std::optional<std::string> Session::objection(const State& next, const Newcomer& newcomer) const {
-  if (settings_.is_closed) return "its players look beyond what their peers have, and who is to be told of what was settled at the start: nobody is let in while they play";
   if (next.window + 3 > settings_.window_count || next.scoring.is_over) return "the game is about to end";
   if (next.members.size() + next.candidates.size() >= members_max) return "there are " + std::to_string(members_max) + " peers already";
   if (next.next_number >= numbers_max) return "this session has let in " + std::to_string(numbers_max) + " peers, and gives no more numbers";
@@ -68,9 +67,7 @@ void Session::admit(State& next) const {
   std::erase_if(next.admitted, [&](const Candidate& one) { return !next.has(one.number); });
   std::erase_if(next.candidates, [&](const Candidate& one) { return !stays(one.sponsor) || contains(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number); });
   if (next.window + 2 > settings_.window_count || next.scoring.is_over) next.candidates.clear();
-  // Where a puck comes back at once the others' next stretch has no length, which a newcomer could not know.
-  const bool ends_at_once = next.scoring.next() <= next.time;
-  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return !ends_at_once && is_reached(one.number); });
+  const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return is_reached(one.number); });
   if (first != next.candidates.end()) {
     next.members.insert(std::upper_bound(next.members.begin(), next.members.end(), first->number), first->number);
     next.fresh = {first->number};
@@ -119,6 +116,13 @@ Session::Session(const physics::World& whole, SessionSettings settings, Mail& ma
   enter_late(std::move(members));
 }
 
+/// At the end of a window, or within the next one where that is cut, and two windows before all is over.
+bool Session::is_in_time(const State& state) const {
+  if (settings_.window_count < 2 || state.window > settings_.window_count - 2) return false;
+  const double begin = state.window == 0 ? 0.0 : settings_.end_of(state.window);
+  return state.time == begin || (settings_.goals && state.time > begin && state.time < settings_.end_of(state.window + 1));
+}
+
 /// From whoever of these tells it first. Who is gone before is gone.
 std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
   while (!from.empty()) try {
@@ -128,7 +132,7 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
       if (read(bytes, entry)) {
         const State& state = entry.state;
         const bool has_pucks = std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(), [&](const FaceOff& due) { return whole_.has_puck(due.puck); });
-        if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) || state.window + 2 > settings_.window_count)
+        if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) || !is_in_time(state))
           throw ProtocolError("peer " + std::to_string(from.front()) + " tells of a beginning that cannot be");
         teller_ = from.front();
         return entry;

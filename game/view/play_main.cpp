@@ -125,7 +125,6 @@ class SharedMatch final : public game::MatchSource {
 };
 
 game::PlayingPeerSettings peer_settings(const view::PlayOptions& options) {
-  game::require_writable("--record", options.sharing.record);
   game::PlayingPeerSettings settings = options.sharing;
   settings.join = options.peer, settings.listen = options.peer_listen;
   return settings;

@@ -26,6 +26,7 @@ struct Ticket {
   PeerNumber number = 0;
   std::map<PeerNumber, End> others;  ///< whom it must reach
   std::vector<PeerNumber> members;   ///< of these
+  std::uint32_t first_bat = 0;       ///< that it plays
 };
 
 class LossyOffice {
@@ -168,7 +169,7 @@ class LossyMail final : public Mail {
   }
   void expect(const Candidate& candidate, bool has_asked_here, const State& state) override {
     if (has_asked_here) {
-      Ticket ticket{.answer = Ticket::Answer::number, .number = candidate.number, .others = ends_, .members = state.members};
+      Ticket ticket{.answer = Ticket::Answer::number, .number = candidate.number, .others = ends_, .members = state.members, .first_bat = candidate.first_bat};
       ticket.others[own_number(state)] = own_;
       office_.answer(candidate.newcomer.token, std::move(ticket));
     }

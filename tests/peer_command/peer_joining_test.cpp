@@ -1,4 +1,5 @@
 // Processes of rink-peer that come while others play, leave, and are killed: whoever is there at the end has the hash of one engine.
+#include "game/peer/session.h"
 #include "rti/transport/tcp.h"
 #include "tests/peer_command/peer_processes.h"
 
@@ -104,6 +105,36 @@ TEST_F(PeerJoining, InAStormOfLeavingAndDyingLeavesTheGameOfOneEngine) {
     EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
     EXPECT_EQ(hash_of(*peer), truth(7.0));
   }
+}
+
+/// Says one thing for ever.
+class OneWord final : public peer::Mail {
+ public:
+  explicit OneWord(std::vector<std::uint8_t> word) : word_(std::move(word)) {}
+  void send(peer::PeerNumber, std::vector<std::uint8_t>) override {}
+  std::vector<std::uint8_t> receive(peer::PeerNumber) override { return word_; }
+
+ private:
+  std::vector<std::uint8_t> word_;
+};
+
+TEST(Newcomer, BelievesNoBeginningThatIsNotWhereAWindowEnds) {
+  const Game start(parse_scene(small_scene, "small.toml"));
+  const auto begin = [&](std::uint64_t window, double time) {
+    peer::State state{.step = 9, .window = window, .time = time, .members = {0, 1}, .cuts = peer::Cuts::whole(start.world().spec().field)};
+    state.fresh = {1};
+    state.slots = state.next_number = 2;
+    OneWord mail(peer::written(peer::Entry{.state = state}));
+    peer::SessionSettings settings{.number = 1, .window_count = 10, .end_of = [](std::uint64_t k) { return 0.02 * static_cast<double>(k); }};
+    settings.seats_of = [](const peer::Player&) { return std::vector<peer::Seat>(); };
+    const peer::Session session(start.world(), std::move(settings), mail, {0});
+    return session.peer().now();
+  };
+  EXPECT_EQ(begin(5, 0.1), 0.1);
+  EXPECT_THROW(begin(5, 0.12), peer::ProtocolError) << "a window later";
+  EXPECT_THROW(begin(5, 0.11), peer::ProtocolError) << "nothing cuts windows here";
+  EXPECT_THROW(begin(9, 0.18), peer::ProtocolError) << "all is over by then";
+  EXPECT_THROW(begin(0xffffffffffffffffu, 0.1), peer::ProtocolError);
 }
 
 }  // namespace

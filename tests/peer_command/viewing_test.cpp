@@ -64,6 +64,43 @@ TEST_F(Viewing, GoesOnWhenAPeerIsKilled) {
   EXPECT_GT(report_of(folder_ / "first.json")["view"]["in_view"], 0);
 }
 
+TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
+  for (const std::string scheme : {"none", "region"}) {
+    const auto file = [&](int k) { return (folder_ / ("peer" + std::to_string(k) + ".json")).string(); };
+    const auto words = [&](int k, Words further) {
+      const Words all{"--pace", "realtime", "--bots", "1", "--view-area", "16", "--report", file(k)};
+      further.insert(further.end(), all.begin(), all.end());
+      return further;
+    };
+    const auto is_in = [&](const Process& peer) {
+      return until([&] { return peer.last_words().find(" is in from ") != std::string::npos || peer.ending(); }) && !peer.ending();
+    };
+    const std::string record = (folder_ / (scheme + ".keys")).string();
+    Process& first = found(1, "5", words(0, {"--scheme", scheme, "--record", record}));
+    ASSERT_TRUE(are_playing({&first}));
+    Process& second = join(first, words(1, {}));
+    ASSERT_TRUE(is_in(second)) << second.last_words();
+    Process& third = join(second, words(2, {}));
+    ASSERT_TRUE(is_in(third)) << third.last_words();
+    ASSERT_EQ(kill(second.id(), SIGINT), 0);
+    ASSERT_TRUE(ends(second) && ends(first) && ends(third));
+    const KeyLog log = read_key_log(std::filesystem::path(record));
+    Game one(load_scene(scene()));
+    for (const InputEvent& key : log.events) one.submit(key);
+    one.advance(5.0);
+    EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(), [](const InputEvent& key) { return key.player > 0; }));
+    for (const int k : {0, 2}) EXPECT_EQ(report_of(file(k))["hash"].dump(), printed(one.hash())) << scheme;
+    for (const int k : {0, 1, 2}) {
+      const nlohmann::json view = report_of(file(k))["view"];
+      EXPECT_GT(view["updates_bytes"], 0) << scheme << ": peer " << k << " tells nobody of what it owns";
+      EXPECT_EQ(view["interest_bytes"] > 0, scheme == "region");
+      EXPECT_GT(view["in_view"], 0) << scheme;
+    }
+    EXPECT_GT(report_of(file(0))["view"]["told_of"], 0) << scheme;
+    EXPECT_GT(report_of(file(2))["view"]["told_of"], 0) << scheme;
+  }
+}
+
 TEST_F(Viewing, EvidenceAccountsForEveryByteAndAgreesWithTheKernel) {
   const auto file = [&](int k, const char* ending) { return (folder_ / ("peer" + std::to_string(k) + ending)).string(); };
   const auto words = [&](int k, Words first) {
@@ -110,6 +147,7 @@ TEST_F(Viewing, RefusesWhatCannotBe) {
   };
   EXPECT_THAT(complaint({"--scheme", "regoin"}), HasSubstr("regoin"));
   EXPECT_THAT(complaint({"--scheme", "region", "--policy", "snapshot"}), HasSubstr("snapshot"));
+  EXPECT_THAT(complaint({"--scheme", "region", "--always", "puck"}), HasSubstr("does not name always"));
   EXPECT_THAT(complaint({"--seated", "--bots", "1"}), HasSubstr("expected no --bots"));
   EXPECT_THAT(complaint({"--evidence", (folder_ / "e.jsonl").string()}), HasSubstr("expected --pace realtime"));
   EXPECT_THAT(complaint({"--seated", "--bat-count", "1"}), HasSubstr("2 peers, but the scene has 1 bats"));

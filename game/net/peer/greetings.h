@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "game/net/relevant_kinds.h"
 #include "game/peer/session_state.h"
 #include "game/physics/snapshot_stream.h"
 
@@ -46,8 +47,9 @@ struct Luggage {
 struct InterestTerms {
   std::string scheme, policy = "on-event";
   double cell_size = 0.0;  ///< m; 0 lets the scheme choose
+  std::uint8_t always = 0; ///< kinds of bodies that the scheme `always` lets through: RelevantKinds::bits
   bool is_wanted() const { return !scheme.empty(); }
-  bool fit() const { return cell_size >= 0.0 && cell_size <= 1e6; }
+  bool fit() const { return cell_size >= 0.0 && cell_size <= 1e6 && always <= RelevantKinds::bits_max; }
 };
 
 /// What the first peer decides for all.
@@ -147,7 +149,7 @@ bool exchange(Stream& stream, Welcome& welcome) {
   InterestTerms& interest = terms.interest;
   const bool is_headed = stream.numbers(welcome.session, terms.peer_count, terms.until, terms.window, terms.balance_windows, welcome.sponsor, welcome.number, welcome.first_bat, interest.cell_size) &&
                          stream.truth(terms.is_mirrored) && stream.truth(terms.is_seated) && stream.truth(terms.starts_together) && stream.truth(welcome.is_playing) &&
-                         exchange(stream, interest.scheme) && exchange(stream, interest.policy);
+                         exchange(stream, interest.scheme) && exchange(stream, interest.policy) && stream.number(interest.always);
   if (!is_headed || !stream.size(welcome.others)) return false;
   bool has_sponsor = false;
   std::uint32_t least = 0;

@@ -9,6 +9,8 @@ namespace rink::game {
 namespace {
 
 constexpr std::size_t strangers_max = 64;
+/// That wait until somebody listens.
+constexpr std::size_t asides_max = 4096;
 constexpr double stranger_patience_s = 5.0;
 /// Transports close a connection whose queue gets longer than a megabyte; what is beyond half of that waits in our own.
 constexpr std::size_t queued_max = 512 * 1024, slice_max = 128 * 1024;
@@ -84,9 +86,9 @@ void Meeting::pass_asides_on() {
   while (hear_aside && !asides_.empty()) {
     const auto [from, bytes] = std::move(asides_.front());
     asides_.pop_front();
-    Link& link = link_of(from);
-    if (link.is_parted || hear_aside(from, bytes)) continue;
-    lose(link, ExitStatus::failed, name_of(link) + " said aside what no peer says");
+    Link* const link = link_at(from);
+    if (!link || link->is_parted || hear_aside(from, bytes)) continue;
+    lose(*link, ExitStatus::failed, name_of(*link) + " said aside what no peer says");
   }
 }
 
@@ -202,6 +204,8 @@ bool Meeting::hear_peer(rti::ConnectionId connection, Link& link, const Frame& f
     return !link.is_done;
   }
   if (frame.kind == FrameKind::aside) {
+    // Where players do not look beyond what their peers have nobody says anything aside; where they do, nobody is further ahead of those who listen than a window.
+    if (!terms_.interest.is_wanted() || asides_.size() >= asides_max) return false;
     asides_.emplace_back(link.number, frame.content);
     return !link.is_done;
   }

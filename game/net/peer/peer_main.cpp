@@ -27,6 +27,7 @@
 #include "game/net/peer/rank_mail.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/peer/viewing_options.h"
+#include "game/net/record_file.h"
 #include "game/net/scene_choice.h"
 
 namespace {
@@ -118,22 +119,6 @@ void write_record(const Options& options, const game::SharedGame& shared, const 
   if (options.record.empty()) return;
   game::write_key_log(std::filesystem::path(options.record), shared.record_of(part, game::scene_text(options.scene)));
 }
-
-/// The file for a record, which is tried out before the run; if the run leaves no record, nor does it leave the empty file of that trial.
-class RecordFile {
- public:
-  explicit RecordFile(const std::string& path) : path_(path), is_new_(!path.empty() && !std::filesystem::exists(path)) { game::require_writable("--record", path); }
-  ~RecordFile() {
-    std::error_code error;
-    if (is_new_ && std::filesystem::is_regular_file(path_, error) && std::filesystem::file_size(path_, error) == 0) std::filesystem::remove(path_, error);
-  }
-  RecordFile(const RecordFile&) = delete;
-  RecordFile& operator=(const RecordFile&) = delete;
-
- private:
-  std::string path_;
-  bool is_new_;
-};
 
 /// Until all who begin are there, or those who play already have told us of each other.
 void meet(const Options& options, const game::Terms& terms, game::Meeting& meeting) {
@@ -287,7 +272,7 @@ game::ExitStatus share_among_ranks(Options options) {
 }
 
 game::ExitStatus run(const Options& options) {
-  const RecordFile record(options.record);
+  const game::RecordFile record("--record", options.record);
   game::require_writable("--report", options.report);
   game::require_writable("--evidence", options.viewing.evidence);
   if (!options.viewing.evidence.empty() && (options.pace != "realtime" || options.transport == "mpi")) throw std::invalid_argument("--evidence: latencies are those of the clock: expected --pace realtime, and no mpi");
@@ -296,9 +281,10 @@ game::ExitStatus run(const Options& options) {
   if (options.join.empty()) shared.require_window(options.terms.window);
   if (options.bots > shared.bat_count())
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) + " wanted, the scene has " + std::to_string(shared.bat_count()) + " bats");
-  game::require_viewing(options.terms, shared, options.bots);
+  game::require_viewing(options.terms, options.viewing, shared, options.bots);
   if (options.bots > 0 && shared.has_keys()) throw std::invalid_argument("--bots: the scene or the key log has keys already, and nobody can play beside them");
   game::Terms terms = options.terms;
+  terms.interest.always = game::relevant_kinds_of(shared.scene(), options.viewing.always).bits();
   terms.starts_together = !options.viewing.evidence.empty();
   game::Place place = game::listening_place(options.listen, options.join, options.transport == "tcp");
   rti::SocketTransport sockets(options.transport);

@@ -43,6 +43,8 @@ class PlayerPicture {
   /// All that came from `source` is forgotten: it was told that we look elsewhere.
   void forget(peer::PeerNumber source);
   void forget_body(std::uint32_t body);
+  /// Without having been told.
+  void believe(std::uint32_t body, const Belief& belief) { beliefs_[body] = belief; }
   /// What is forgotten can be asked for until then, by who looks between two windows.
   void drop_forgotten();
 

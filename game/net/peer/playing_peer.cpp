@@ -1,6 +1,7 @@
 // The part of a peer from its first word to its last, told to the window in stages.
 #include "game/net/peer/playing_peer.h"
 
+#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <random>
@@ -30,7 +31,9 @@ std::uint64_t unguessable_number() {
 
 }  // namespace
 
-PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)()) : settings_(settings), now_s_(now_s), game_(scene_of(settings), {}), match_(game_, hand_) {
+PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
+    : settings_(settings), record_file_("--record", settings.record), now_s_(now_s), game_(scene_of(settings), {}), match_(game_, hand_) {
+  settings_.terms.interest.always = relevant_kinds_of(game_.scene()).bits();
   if (game_.bat_count() == 0) throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
   if (game_.has_keys()) throw SceneError("scene '" + settings.scene + "' has keys already, and nobody can play beside them");
   if (settings.join.empty()) game_.require_window(settings.terms.window);
@@ -75,12 +78,14 @@ void PlayingPeer::run() {
 /// False if it was sent away before it was in, and may try again.
 bool PlayingPeer::share_or_come_again(int tries) {
   constexpr int tries_max = 10;
+  constexpr auto pause = std::chrono::milliseconds(200);  // in which those who play on may agree on who is there
   try {
     share();
     return true;
   } catch (const peer::SentAway&) {
     if (tries == tries_max) throw;
     meeting_->abandon();
+    std::this_thread::sleep_for(pause);
     meet();
     return false;
   }
@@ -98,7 +103,7 @@ void PlayingPeer::share() {
   if (!is_late) meeting_->gather();
   const Terms& terms = meeting_->terms();
   if (terms.is_seated) throw Parting(ExitStatus::not_admitted, "the peers there are seated, and their players' keys are known: nobody can play at a window");
-  const Viewing viewing = make_viewing(game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}}, now_s_);
+  const Viewing viewing = make_viewing(game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}, .always = {}}, now_s_);
   const Guest& self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
   if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);

@@ -11,6 +11,7 @@
 #include "game/net/peer/meeting.h"
 #include "game/net/peer/peer_match.h"
 #include "game/net/peer/shared_game.h"
+#include "game/net/record_file.h"
 #include "rti/transport/socket_transport.h"
 
 namespace rink::game {
@@ -53,6 +54,7 @@ class PlayingPeer final : public MatchSource {
   void write_record(const PlayedPart& part);
 
   PlayingPeerSettings settings_;
+  RecordFile record_file_;
   double (*now_s_)();
   SharedGame game_;
   Hand hand_;

@@ -45,6 +45,7 @@ InterestSettings interest_settings(const Game& start, const Terms& terms, std::s
   InterestSettings settings;
   settings.scheme = terms.interest.scheme, settings.policy = terms.interest.policy, settings.cell_size = terms.interest.cell_size;
   settings.half_side = half_side, settings.margin = margin;
+  settings.always_relevant = RelevantKinds::of_bits(terms.interest.always);
   settings.rate_hz = 1.0 / terms.window;
   settings.bats = bats_of_peers(start, terms, guests);
   return settings;

@@ -35,20 +35,6 @@ bool exchange(Stream& stream, Gaze& gaze) {
   return gaze.low_x <= gaze.high_x && gaze.low_y <= gaze.high_y;
 }
 
-/// By trial: someone who looks at one corner of a wide world, and an entity in the other that shares all roles with it. Stages may let it in late.
-bool lets_in_what_is_far(const std::string& scheme) {
-  constexpr double far = 1e6;
-  const auto filter = im::make_filter(scheme, {.world = {0.0, 0.0, far, far}, .cell_size = far / 64.0});
-  constexpr im::Role role{.team = 1, .owner = 1, .is_always_relevant = true};
-  for (int match = 0; match < 256; ++match) {
-    filter->set_update_region(0, {far - 1.0, far - 1.0, far - 1e-3 * match, far});
-    filter->set_subscription_region(0, {0.0, 0.0, 1.0, 1.0 + 1e-3 * match});
-    filter->set_entity_role(0, role), filter->set_subscriber_role(0, role);
-    if (!filter->match().empty()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Gaze gaze_at(const im::Region& region, double cell_size) {
@@ -81,32 +67,39 @@ std::optional<Gaze> gaze_from(rti::Bytes bytes) {
   return exchange(reader, gaze) && reader.is_at_end() ? std::optional(gaze) : std::nullopt;
 }
 
-SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, peer::PeerNumber peer_count, std::uint32_t body_count)
+SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, std::vector<im::Role> roles, double extent_max)
     : filter_(im::make_filter(scheme, settings)),
+      world_(settings.world),
       cell_size_(scheme == "grid" ? filter_->cell_size() : 0.0),
+      reach_(cell_size_ > 0.0 ? SchemeReach{extent_max + cell_size_, extent_max + cell_size_} : reach_of(scheme, settings, extent_max)),
       is_selective_(scheme != "none"),
-      reaches_everywhere_(lets_in_what_is_far(scheme)),
       remembers_(scheme.find("with") != std::string::npos || scheme.find("cone") != std::string::npos),
       tells_trajectories_(policy == "on-event"),
-      scopes_(peer_count),
-      sent_(peer_count),
-      is_here_(body_count, 0) {
+      body_roles_(std::move(roles)),
+      is_here_(body_roles_.size(), 0) {
   assert(filter_ && (policy == "periodic" || policy == "on-event"));
-  if (is_selective_) return;
-  for (peer::PeerNumber player = 0; player < peer_count; ++player) look(player, settings.world);
 }
 
-void SenderInterest::set_roles(std::vector<im::Role> of_bodies, std::vector<im::Role> of_players) { body_roles_ = std::move(of_bodies), player_roles_ = std::move(of_players); }
+void SenderInterest::add_player(peer::PeerNumber player, std::uint32_t bat) {
+  if (player >= scopes_.size()) scopes_.resize(player + 1), sent_.resize(player + 1), handed_over_.resize(player + 1), player_roles_.resize(player + 1);
+  player_roles_[player] = body_roles_[bat];
+  if (!is_selective_) look(player, world_);
+}
+
+void SenderInterest::remove_player(peer::PeerNumber player) {
+  if (player < scopes_.size()) look_away(player);
+}
 
 void SenderInterest::look(peer::PeerNumber player, const im::Region& region) {
   filter_->set_subscription_region(player, region);
-  if (player < player_roles_.size()) filter_->set_subscriber_role(player, player_roles_[player]);
+  filter_->set_subscriber_role(player, player_roles_[player]);
 }
 
 void SenderInterest::look_away(peer::PeerNumber player) {
   filter_->remove_subscriber(player);
   scopes_[player].clear();
   sent_[player].clear();
+  handed_over_[player].clear();
 }
 
 void SenderInterest::match(const peer::Peer& peer) {
@@ -115,7 +108,7 @@ void SenderInterest::match(const peer::Peer& peer) {
   const physics::World& world = peer.world();
   for (const std::uint32_t body : here) filter_->set_update_region(body, bounding_box(world.position({body}), world.half_extent({body})));
   for (const std::uint32_t body : here) {
-    if (is_here_[body] == 0 && body < body_roles_.size()) filter_->set_entity_role(body, body_roles_[body]);
+    if (is_here_[body] == 0) filter_->set_entity_role(body, body_roles_[body]);
     is_here_[body] = 2;
   }
   bool has_lost = false;
@@ -196,9 +189,15 @@ std::vector<std::byte> SenderInterest::updates_for(const peer::Peer& peer, peer:
   }
   std::sort(now_sent.begin(), now_sent.end());
   // What is the player's own or ghost it sees for itself; what is another's by now, and still seen, that one tells of. Where its new owner, who has not seen all that we have, may decide
-  // otherwise, it is told as left: if the new owner has told of it, that is not believed.
-  for (const std::uint32_t body : sent)
+  // otherwise, it is told as left: if the new owner has told of it, that is not believed. That one first tells of it in this window, so we do in the next: nobody loses sight of it meanwhile.
+  for (const std::uint32_t body : handed_over_[player])
     if (!contains(now_sent, body) && (remembers_ || !contains(scope, body))) put(body, Form::left, 0, {});
+  handed_over_[player].clear();
+  for (const std::uint32_t body : sent) {
+    if (contains(now_sent, body)) continue;
+    if (!peer.owns(body)) handed_over_[player].push_back(body);
+    else if (!contains(scope, body)) put(body, Form::left, 0, {});
+  }
   sent = std::move(now_sent);
   return message;
 }

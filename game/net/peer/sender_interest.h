@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "game/net/peer/scheme_reach.h"
 #include "game/peer/peer.h"
 #include "game/replication/trajectory.h"
 #include "im/filter.h"
@@ -36,28 +37,29 @@ std::optional<Gaze> gaze_from(rti::Bytes bytes);
 class SenderInterest {
  public:
   /// `scheme` and `policy` ("periodic" or "on-event") must be known (asserted).
-  SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, peer::PeerNumber peer_count, std::uint32_t body_count);
+  /// What the schemes `always`, `team` and `owner` go by are the `roles` of all bodies, of which the largest extends so far from its middle [m].
+  SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, std::vector<im::Role> roles, double extent_max);
 
-  /// What the schemes `always`, `team` and `owner` go by: of all bodies, and of each peer's player. Before anybody looks.
-  void set_roles(std::vector<im::Role> of_bodies, std::vector<im::Role> of_players);
+  /// Peer `player` has a player, who moves `bat`. With a scheme that is not selective he looks at all from now on; with others when he says where.
+  void add_player(peer::PeerNumber player, std::uint32_t bat);
+  /// He is gone: nothing that he was told or looked at counts any more.
+  void remove_player(peer::PeerNumber player);
 
   /// Side of the cells by which alone the scheme looks at regions [m]; 0 if it looks at them otherwise.
   double cell_size() const { return cell_size_; }
   /// Whether it matters where players look.
   bool is_selective() const { return is_selective_; }
-  /// Whether what is far from where a player looks may concern it, so that everybody must know that it looks.
-  bool reaches_everywhere() const { return reaches_everywhere_; }
+  /// So far from where a player looks its owner must know that he does.
+  const SchemeReach& reach() const { return reach_; }
   bool tells_trajectories() const { return tells_trajectories_; }
 
   void look(peer::PeerNumber player, const im::Region& region);
   /// The player does not look here any more, and has been told to forget.
   void look_away(peer::PeerNumber player);
-  /// What the player was told counts no more: it is told all anew.
-  void forget_told(peer::PeerNumber player) { sent_[player].clear(); }
 
   /// The bodies that are here now, own ones and ghosts; decides who sees which.
   void match(const peer::Peer& peer);
-  /// Of all that are here, ascending; `player` is any peer's, the own one included.
+  /// Of all that are here, ascending; `player` is that of any peer which was added, the own one included.
   const std::vector<std::uint32_t>& scope_of(peer::PeerNumber player) const { return scopes_[player]; }
   /// Between the arrivals and the commit of window `window`: what `player` is to be told of our bodies that it will not have itself. `felt`: of its own bat, if it has not been told.
   /// Empty if there is nothing.
@@ -77,10 +79,13 @@ class SenderInterest {
   const Told& told_of(const physics::World& world, std::uint32_t body, std::uint32_t window);
 
   std::unique_ptr<im::Filter> filter_;
+  im::Region world_;
   double cell_size_;
-  bool is_selective_, reaches_everywhere_, remembers_, tells_trajectories_;  ///< `remembers`: decisions depend on earlier ones, so two owners may differ
-  std::vector<im::Role> body_roles_, player_roles_;        ///< by body, by peer; or none
+  SchemeReach reach_;
+  bool is_selective_, remembers_, tells_trajectories_;  ///< `remembers`: decisions depend on earlier ones, so two owners may differ
+  std::vector<im::Role> body_roles_, player_roles_;        ///< by body, by peer
   std::vector<std::vector<std::uint32_t>> scopes_, sent_;  ///< by peer, ascending: who sees what; what each was told of last and not told to forget
+  std::vector<std::vector<std::uint32_t>> handed_over_;    ///< likewise, of what is another's since the last window
   std::vector<std::uint8_t> is_here_;                      ///< by body: in the filter
   std::vector<std::uint32_t> here_;
   std::unordered_map<std::uint32_t, Told> told_;           ///< of bodies that are here, what all hear who hear of it

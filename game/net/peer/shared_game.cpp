@@ -193,7 +193,6 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   settings.goals = goal_rules(terms.window);
   settings.bat_count = has_keys() ? 0 : start_.player_count();
   settings.seats_of = [this](const peer::Player& player) { return seats(player); };
-  settings.is_closed = terms.interest.is_wanted() || terms.is_seated;
   if (manner.listener != nullptr) {
     settings.hooks.when_played = [&manner] { manner.listener->when_played(); };
     settings.hooks.when_told = [&manner] { manner.listener->when_told(); };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "rti/wire/stream.h"
 
@@ -26,13 +28,34 @@ im::FilterSettings filter_settings(const Game& start, double cell_size) {
   return settings;
 }
 
-/// A bat is of its team and its player's; posts are always relevant.
-im::Role role_of(const Entity& entity) {
+/// A bat is of its team and its player's.
+im::Role role_of(const Entity& entity, RelevantKinds always) {
   im::Role role;
   if (entity.player) role.owner = *entity.player;
   if (entity.team != Team::none) role.team = static_cast<std::uint32_t>(entity.team);
-  role.is_always_relevant = entity.kind == physics::BodyKind::post;
+  role.is_always_relevant = always.has(entity.kind);
   return role;
+}
+
+std::vector<im::Role> roles_of(const Game& start, RelevantKinds always) {
+  std::vector<im::Role> roles(start.world().body_count());
+  for (const Entity& entity : start.entities()) roles[entity.id.index] = role_of(entity, always);
+  return roles;
+}
+
+double extent_max_of(const Game& start) {
+  double extent_max = 0.0;
+  for (const Entity& entity : start.entities()) extent_max = std::max(extent_max, entity.half_extent.maxCoeff());
+  return extent_max;
+}
+
+/// What was told by `from`, who tells no more: it stays in the picture as the `own` peer's, in `kept`, until whoever tells of it from now on has done so.
+void keep_for_now(PlayerPicture& picture, peer::PeerNumber from, peer::PeerNumber own, std::vector<std::uint32_t>& kept) {
+  for (const auto& [body, belief] : picture.beliefs()) {
+    if (!belief.is_there || belief.source != from) continue;
+    kept.push_back(body);
+    picture.believe(body, {own, true, belief.motion});
+  }
 }
 
 Drag drag_of(const physics::WorldSpec& spec) { return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}; }
@@ -44,22 +67,33 @@ SharedInterest::SharedInterest(const Game& start, const InterestSettings& settin
       peer_(peer),
       division_(division),
       send_(std::move(send)),
-      interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy, peer_count(), start.world().body_count()),
+      interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy, roles_of(start, settings.always_relevant), extent_max_of(start)),
       picture_(interest_.tells_trajectories(), drag_of(start.world().spec()), kinds_of(start)),
-      places_(start.world().body_count(), Place::away),
-      is_told_(peer_count(), false),
-      heard_(peer_count(), 0),
-      playing_(heard_),
-      felt_(heard_),
-      told_felt_(heard_),
-      handed_to_(peer_count(), peer.number()) {
-  for (const Entity& entity : start.entities()) extent_max_ = std::max(extent_max_, entity.half_extent.maxCoeff());
-  std::vector<im::Role> of_bodies(start.world().body_count()), of_players(peer_count());
-  for (const Entity& entity : start.entities()) of_bodies[entity.id.index] = role_of(entity);
-  for (peer::PeerNumber peer = 0; peer < peer_count(); ++peer)
-    if (settings.bats[peer] != no_bat) of_players[peer] = of_bodies[settings.bats[peer]];
-  interest_.set_roles(std::move(of_bodies), std::move(of_players));
-  if (bat() != no_bat) seen_bat_ = start.position({bat()});
+      places_(start.world().body_count(), Place::away) {
+  std::vector<peer::PeerNumber> all(settings.bats.size());
+  std::iota(all.begin(), all.end(), peer::PeerNumber{0});
+  set_members(all, settings.bats);
+  if (bat() != no_bat && !settings.is_late) seen_bat_ = start.position({bat()});
+}
+
+void SharedInterest::set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats) {
+  const std::vector<peer::PeerNumber> before = std::exchange(members_, {members.begin(), members.end()});
+  const std::size_t count = std::max(bats.size(), is_told_.size());
+  settings_.bats = std::move(bats);
+  settings_.bats.resize(count, no_bat);
+  is_told_.resize(count, false);
+  for (std::vector<std::uint32_t>* const counts : {&heard_, &playing_, &felt_, &told_felt_}) counts->resize(count, 0);
+  handed_to_.resize(count, peer_.number());
+  for (const peer::PeerNumber peer : before)
+    if (!is_member(peer)) forget(peer);
+  for (const peer::PeerNumber peer : members_)
+    if (settings_.bats[peer] != no_bat && !std::binary_search(before.begin(), before.end(), peer)) interest_.add_player(peer, settings_.bats[peer]);
+}
+
+void SharedInterest::forget(peer::PeerNumber peer) {
+  interest_.remove_player(peer);
+  keep_for_now(picture_, peer, peer_.number(), parting_);
+  is_told_[peer] = false;
 }
 
 void SharedInterest::say(peer::PeerNumber to, Traffic about, rti::Bytes content) {
@@ -83,22 +117,27 @@ void SharedInterest::look_around() {
   if (gaze_.form == Gaze::Form::away) return;
   const im::Region region = region_of(gaze_, interest_.cell_size());
   if (is_new) interest_.look(peer_.number(), region);
-  // Zones may have moved though the view has not. Cells that are touched count whole.
-  const double grown = extent_max_ + interest_.cell_size();
-  for (peer::PeerNumber other = 0; other < peer_count(); ++other) {
+  is_new = std::exchange(is_undone_, false) || is_new;
+  // Zones may have moved though the view has not.
+  const SchemeReach& reach = interest_.reach();
+  const peer::Box seen{region.low_x - reach.x, region.low_y - reach.y, region.high_x + reach.x, region.high_y + reach.y};
+  for (const peer::PeerNumber other : members_) {
     if (other == peer_.number()) continue;
-    const bool is_near = interest_.reaches_everywhere() || division_.is_near(other, {region.low_x, region.low_y, region.high_x, region.high_y}, grown);
+    const bool is_near = division_.is_near(other, seen, 0.0);
     if (is_near && (is_new || !is_told_[other])) say(other, Traffic::interest, bytes_of(gaze_));
-    if (!is_near && is_told_[other]) say(other, Traffic::interest, bytes_of(Gaze{})), picture_.forget(other);
+    if (!is_near && is_told_[other]) say(other, Traffic::interest, bytes_of(Gaze{})), keep_for_now(picture_, other, peer_.number(), parting_);
     is_told_[other] = is_near;
   }
 }
 
-/// Where it is, or was when it was last seen; at first, where it starts.
+/// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live players from time to time, whatever the filter says.
 std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Belief& belief = picture_.belief(bat());
   if (places_[bat()] != Place::away) seen_bat_ = peer_.world().position({bat()});
   else if (belief.is_there) seen_bat_ = belief.position_at(peer_.now());
+  else
+    for (const peer::Glimpse& glimpse : peer_.glimpses())
+      if (glimpse.bat == bat()) seen_bat_ = glimpse.position;
   return seen_bat_;
 }
 
@@ -107,11 +146,24 @@ void SharedInterest::finish(std::uint32_t window) {
   interest_.match(peer_);
   tell(window);
   hand_keys_over();
+  keep_in_sight();
+}
+
+/// What the player sees of own bodies that are others' from now on: these tell of them with the next window. Ghosts are seen anyway.
+void SharedInterest::keep_in_sight() {
+  for (const std::uint32_t body : parted_)
+    if (picture_.belief(body).source == peer_.number()) picture_.forget_body(body);
+  parted_ = std::move(parting_);
+  parting_.clear();
+  if (bat() == no_bat) return;
+  for (const std::uint32_t body : interest_.scope_of(peer_.number()))
+    if (places_[body] == Place::own && division_.owner_of(peer_.world().position({body})) != peer_.number()) parting_.push_back(body);
+  for (const std::uint32_t body : parting_) picture_.believe(body, {peer_.number(), true, motion_of(body)});
 }
 
 void SharedInterest::tell(std::uint32_t window) {
-  for (peer::PeerNumber player = 0; player < peer_count(); ++player) {
-    if (player == peer_.number()) continue;
+  for (const peer::PeerNumber player : members_) {
+    if (player == peer_.number() || settings_.bats[player] == no_bat) continue;
     const auto newly_felt = [&](std::uint32_t body) -> std::optional<std::uint32_t> {
       if (body != settings_.bats[player] || felt_[player] <= told_felt_[player]) return std::nullopt;
       return told_felt_[player] = felt_[player];
@@ -123,7 +175,7 @@ void SharedInterest::tell(std::uint32_t window) {
 
 /// To who owns a bat from now on, what came for it here.
 void SharedInterest::hand_keys_over() {
-  for (peer::PeerNumber player = 0; player < peer_count(); ++player) {
+  for (const peer::PeerNumber player : members_) {
     const std::uint32_t bat = settings_.bats[player];
     if (bat == no_bat || places_[bat] != Place::own) continue;
     const peer::PeerNumber owner = division_.owner_of(peer_.world().position({bat}));
@@ -146,14 +198,16 @@ void SharedInterest::note_places() {
   for (const std::uint32_t body : peer_.ghosts()) places_[body] = Place::ghost;
 }
 
-void SharedInterest::begin_again(std::span<const peer::PeerNumber> members) {
-  for (peer::PeerNumber peer = 0; peer < peer_count(); ++peer) {
-    const bool is_there = std::find(members.begin(), members.end(), peer) != members.end();
-    if (!is_there && interest_.is_selective()) interest_.look_away(peer);
-    if (!is_there) is_told_[peer] = false;
-    interest_.forget_told(peer);
-    picture_.forget(peer);
-  }
+/// A word that was under way when windows were undone may be heard after this: so whoever looks elsewhere says that, too, to all.
+void SharedInterest::begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats) {
+  for (const peer::PeerNumber peer : members_)
+    if (peer != peer_.number()) forget(peer);
+  picture_.forget(peer_.number());
+  parted_.clear(), parting_.clear();
+  members_ = {peer_.number()};
+  set_members(members, std::move(bats));
+  for (const peer::PeerNumber peer : members_) is_told_[peer] = peer != peer_.number();
+  is_undone_ = true;
   note_places();
 }
 
@@ -163,7 +217,7 @@ peer::PeerNumber SharedInterest::owner_of_bat(peer::PeerNumber player) const {
   if (places_[bat] == Place::own) return peer_.number();
   if (places_[bat] == Place::ghost) return division_.owner_of(peer_.world().position({bat}));
   const Belief& belief = picture_.belief(bat);
-  return belief.is_there ? belief.source : handed_to_[player];
+  return belief.is_there && belief.source != peer_.number() ? belief.source : handed_to_[player];
 }
 
 void SharedInterest::press() {
@@ -187,7 +241,7 @@ bool SharedInterest::hear_keys(rti::Bytes content) {
   std::uint8_t word = 0;
   peer::PeerNumber player = 0;
   std::uint32_t count = 0;
-  if (!reader.range(word, 1) || !reader.varint(player) || player >= peer_count() || !reader.varint(count) || !reader.is_at_end()) return false;
+  if (!reader.range(word, 1) || !reader.varint(player) || player >= settings_.bats.size() || !reader.varint(count) || !reader.is_at_end()) return false;
   const bool is_news = count > heard_[player];
   heard_[player] = std::max(heard_[player], count);
   const peer::PeerNumber owner = owner_of_bat(player);
@@ -196,7 +250,7 @@ bool SharedInterest::hear_keys(rti::Bytes content) {
 }
 
 bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes content) {
-  if (from >= peer_count()) return false;
+  if (!is_member(from)) return false;
   switch (about) {
     case Traffic::halo:
     case Traffic::claims:
@@ -206,7 +260,7 @@ bool SharedInterest::hear(peer::PeerNumber from, Traffic about, rti::Bytes conte
     case Traffic::interest: break;
   }
   const std::optional<Gaze> gaze = gaze_from(content);
-  if (!gaze || !interest_.is_selective()) return false;
+  if (!gaze || !interest_.is_selective() || settings_.bats[from] == no_bat) return false;
   if (gaze->form == Gaze::Form::away) interest_.look_away(from);
   else interest_.look(from, region_of(*gaze, interest_.cell_size()));
   return true;
@@ -219,6 +273,7 @@ std::uint32_t SharedInterest::felt() const {
 
 void SharedInterest::list_scope(std::vector<std::uint32_t>& bodies) const {
   bodies.clear();
+  if (bat() == no_bat) return;
   for (const std::uint32_t body : interest_.scope_of(peer_.number()))
     if (places_[body] != Place::away && !picture_.belief(body).is_there) bodies.push_back(body);
   for (const auto& [body, belief] : picture_.beliefs())

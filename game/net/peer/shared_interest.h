@@ -1,6 +1,7 @@
 // Interest among peers, seen from one of them: where its player looks, what the others are told of the bodies here, and what it is told of theirs. No clock, no socket.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "game/net/peer/player_picture.h"
 #include "game/net/peer/sender_interest.h"
 #include "game/net/peer/traffic.h"
+#include "game/net/relevant_kinds.h"
 #include "game/peer/peer.h"
 
 namespace rink::game {
@@ -24,15 +26,18 @@ struct InterestSettings {
   std::string scheme = "region", policy = "on-event";  ///< see SenderInterest
   double cell_size = 0.0;                              ///< m; 0 lets the scheme choose
   double half_side = 1.0, margin = 0.0;                ///< m: of a player's view, and by how much its region exceeds it (game::ClientSettings)
+  RelevantKinds always_relevant;                       ///< what the scheme `always` lets through
   double rate_hz = 20.0;                               ///< windows per second of simulated time: the k-th ends at k / rate_hz
-  std::vector<std::uint32_t> bats;                     ///< by peer, the body that its player moves; or no_bat
+  std::vector<std::uint32_t> bats;                     ///< by peer, the body that its player moves; or no_bat. Of those who begin
+  bool is_late = false;                                ///< others have played before: the bat is not where it started
 };
 
 /// Keys are counted by who owns the bat, as a server that replays does. Throws nothing.
 class SharedInterest {
  public:
   using Send = std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
-  /// `peer` and `division` must outlive it, and may be made anew where they are (then `begin_again`). What is sent must come before what the protocol sends to the same peer afterwards.
+  /// Of as many members as there are bats. `peer` and `division` must outlive it, and may be made anew where they are (then `begin_again`). What is sent must come before what the protocol
+  /// sends to the same peer afterwards.
   SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer, const peer::Division& division, Send send);
   SharedInterest(const SharedInterest&) = delete;
   SharedInterest& operator=(const SharedInterest&) = delete;
@@ -46,10 +51,13 @@ class SharedInterest {
   /// It is; and once before the first.
   void note_places();
 
-  /// Everybody tells everybody all anew from now on, for only `members` are left, who all call this at the same window.
-  void begin_again(std::span<const peer::PeerNumber> members);
+  /// From now on these are the members (sorted), and `bats` theirs, by number. Who was one goes on with what was told and heard; with who comes all begins, with who is gone it ends. All call
+  /// this before they hear what a newcomer says.
+  void set_members(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
+  /// Likewise, but windows were undone: everybody forgets what was told and where others look, and tells everybody anew. All who are left call this at the same window.
+  void begin_again(std::span<const peer::PeerNumber> members, std::vector<std::uint32_t> bats);
 
-  /// False for what is no message of its kind.
+  /// From a member. False for what is no message of its kind.
   bool hear(peer::PeerNumber from, Traffic about, rti::Bytes content);
   /// The own player pressed or released a key, which goes to the bat's owner.
   void press();
@@ -76,11 +84,13 @@ class SharedInterest {
   void say(peer::PeerNumber to, Traffic about, rti::Bytes content);
   void tell(std::uint32_t window);
   void hand_keys_over();
+  void keep_in_sight();
   bool hear_keys(rti::Bytes content);
   void say_keys(peer::PeerNumber to, KeyWord word, peer::PeerNumber player, std::uint32_t count);
   std::optional<physics::Vector2> bat_place();
   peer::PeerNumber owner_of_bat(peer::PeerNumber player) const;
-  peer::PeerNumber peer_count() const { return static_cast<peer::PeerNumber>(settings_.bats.size()); }
+  bool is_member(peer::PeerNumber peer) const { return std::binary_search(members_.begin(), members_.end(), peer); }
+  void forget(peer::PeerNumber peer);
 
   InterestSettings settings_;
   const peer::Peer& peer_;
@@ -88,11 +98,13 @@ class SharedInterest {
   Send send_;
   SenderInterest interest_;
   PlayerPicture picture_;
-  double extent_max_ = 0.0;
+  std::vector<peer::PeerNumber> members_;                  ///< sorted
   std::vector<Place> places_;                              ///< by body
   std::vector<std::uint32_t> here_;
+  std::vector<std::uint32_t> parted_, parting_;            ///< own bodies that are others' since the last window and from now on, as they were then in the picture
   Gaze gaze_;
   std::optional<physics::Vector2> seen_bat_;               ///< where the player's bat was last seen [m]
+  bool is_undone_ = false;                                 ///< what was said before counts no more
   std::vector<bool> is_told_;                              ///< by peer: it knows the present gaze, or an earlier one, and must be told of its end
   std::vector<std::uint32_t> heard_, playing_, felt_, told_felt_;  ///< by peer, keys of its player: that came here; and, as the bat's owner, in the window that is played, in final ones, told to it
   std::vector<peer::PeerNumber> handed_to_;                ///< by peer: who got its bat from us

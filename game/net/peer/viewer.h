@@ -13,7 +13,8 @@
 
 namespace rink::game {
 
-/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is about (Traffic). Who is lost or leaves is forgotten, and all is told anew.
+/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost,
+/// and windows are undone, all who are left tell each other anew.
 class Viewer : public WindowListener {
  public:
   /// `game` and `asides` must outlive it. Throws peer::ProtocolError for a scheme or a policy of the settings that is none.
@@ -45,6 +46,8 @@ class Viewer : public WindowListener {
   bool hear(peer::PeerNumber from, std::vector<std::uint8_t> bytes);
   bool apply(peer::PeerNumber from, std::span<const std::uint8_t> bytes);
   bool is_recovering() const { return session_->lost().size() != lost_; }
+  void settle();
+  std::vector<std::uint32_t> bats() const;
 
   const SharedGame& game_;
   InterestSettings settings_;
@@ -52,7 +55,7 @@ class Viewer : public WindowListener {
   const peer::Session* session_ = nullptr;
   std::optional<SharedInterest> interest_;
   std::vector<peer::PeerNumber> members_;
-  std::size_t lost_ = 0, in_view_ = 0, told_of_ = 0;
+  std::size_t lost_ = 0, in_view_ = 0, told_of_ = 0;       ///< `lost_`: how many when all was last told anew
   std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> put_off_;  ///< that came while the session recovers
   TrafficBytes sent_{}, messages_sent_{};
 };

@@ -33,6 +33,10 @@ void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, C
       ->excludes(join)
       ->capture_default_str();
   app.add_option("--cell-size", interest.cell_size, "with --scheme: side of its cells [m]; 0 lets it choose; the first peer's to say")->check(zero_or_number_from(cell_size_min, 1e6))->excludes(join)->capture_default_str();
+  app.add_option("--always", options.always, "with --scheme: kinds of bodies that the scheme always lets through: puck, bat, post; unless said otherwise posts, and the pucks of a match to a number of goals; the first peer's to say")
+      ->delimiter(',')
+      ->check(CLI::IsMember(relevant_kind_names))
+      ->excludes(join);
   app.add_flag("--seated", terms.is_seated, "each peer has for its player one of the first bats, the one in its zone, and zones are cut around these bats; their keys are those that all know; the first peer's to say")->excludes(join);
   app.add_option("--view", options.view_fraction, "area of the own player's view as a fraction of the field's; 1 or more: everything")->check(number_from(1e-9, 1e6))->capture_default_str();
   app.add_option("--view-area", options.view_area, "area of that view [m^2] instead; 0: as --view says")->check(number_from(0.0, view_area_max))->capture_default_str();
@@ -40,7 +44,9 @@ void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, C
   app.add_option("--view-margin", options.view_margin, "how far the region that is told reaches beyond the view [m]; it is told anew when the bat has moved by half of that")->check(number_from(0.0, view_margin_max))->capture_default_str();
 }
 
-void require_viewing(const Terms& terms, const SharedGame& game, std::uint32_t bots) {
+void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game, std::uint32_t bots) {
+  if (!options.always.empty() && !im::names_scheme(terms.interest.scheme, "always"))
+    throw std::invalid_argument("--always: the scheme '" + terms.interest.scheme + "' does not name always: expected one that does, such as --scheme \"region or always\"");
   if (!terms.is_seated) return;
   if (bots > 0) throw std::invalid_argument("--bots: with --seated each peer's player is the bat in its zone, whose keys all know (--keys): expected no --bots");
   if (terms.peer_count > game.bat_count())

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "game/net/peer/greetings.h"
 #include "game/net/peer/meeting.h"
@@ -18,6 +19,7 @@ struct ViewingOptions {
   std::string evidence;                                             ///< file
   std::uint64_t evidence_seed = 1;
   double warm_up_s = 0.0;
+  std::vector<std::string> always;                                  ///< of a first peer: kinds of bodies; none: as the scene has it
 };
 
 /// What is wrong with a scheme that a flag names, or nothing.
@@ -25,7 +27,7 @@ std::string objection_to(const std::string& scheme);
 /// `join`: the flag beside which the first peer's cannot stand.
 void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, CLI::Option* join);
 /// Throws std::invalid_argument for what the flags of a first peer cannot mean together.
-void require_viewing(const Terms& terms, const SharedGame& game, std::uint32_t bots);
+void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game, std::uint32_t bots);
 
 /// What the terms want of interest, for those who met, and evidence of it if the options do: neither if they want none. Throws std::invalid_argument if there can be no evidence.
 struct Viewing {
