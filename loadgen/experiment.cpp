@@ -84,7 +84,6 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
   if (has(experiment.policies, std::string("snapshot"))) refuse("knows the policies periodic and on-event, not snapshot");
   if (experiment.sweep_ticks != std::vector<double>{0.0}) refuse("sweeps no regions: expected sweep_ticks = 0");
   if (experiment.server_cores != std::vector<std::uint32_t>{1}) refuse("has no server: expected server_cores = 1");
-  if (!experiment.always.empty()) refuse("knows posts alone as what is always relevant: expected no always");
   if (experiment.network_carries_datagrams) refuse("sends no datagrams: expected a [network] without them");
 }
 

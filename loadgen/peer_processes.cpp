@@ -256,6 +256,8 @@ std::vector<std::string> peer_arguments(const Experiment& experiment, const Cell
     add("--balance", "0");
     add("--scheme", cell.scheme);
     add("--policy", cell.policy);
+    if (im::names_scheme(cell.scheme, "always"))
+      for (const std::string& kind : experiment.always) add("--always", kind);
     if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
     arguments.insert(arguments.end(), {"--unmirrored", "--seated"});
   } else {

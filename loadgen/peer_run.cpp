@@ -13,6 +13,7 @@
 #include "game/control/key_log.h"
 #include "game/net/peer/seating.h"
 #include "game/net/view.h"
+#include "game/net/relevant_kinds.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/peer_judgement.h"
 #include "loadgen/peer_station.h"
@@ -138,8 +139,10 @@ class PeerRun {
   bool has_started_ = false;
 };
 
-game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell, const physics::Field& field, const std::vector<std::uint32_t>& bats) {
+game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<std::uint32_t>& bats) {
+  const physics::Field& field = scene.world.field;
   game::InterestSettings settings;
+  settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
   settings.scheme = cell.scheme, settings.policy = cell.policy, settings.cell_size = cell.parameters.cell_size;
   settings.half_side = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
   settings.margin = cell.parameters.view_margin;
@@ -157,7 +160,7 @@ PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, c
       model_(network_conditions(experiment, cell)),
       network_(model_),
       keys_(keys) {
-  const game::InterestSettings interest = interest_settings(experiment, cell, scene.world.field, seats_.bats);
+  const game::InterestSettings interest = interest_settings(experiment, cell, scene, seats_.bats);
   measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
   for (peer::PeerNumber number = 0; number < cell.clients; ++number) {
     PeerStation& station = stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
