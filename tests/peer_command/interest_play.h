@@ -114,6 +114,7 @@ class InterestPlay {
     constexpr double doubt = 0.05;  // m: how far off a bat may be believed to be that was hit in the last two windows
     Recount all;
     for (const Sight& sight : sights_) {
+      if (turned_lately(sight)) continue;
       ++all.sights;
       all.seen += sight.bodies.size(), all.far += sight.told;
       for (std::uint32_t body = 0; body < places_.at(sight.window).size(); ++body) {
@@ -157,9 +158,21 @@ class InterestPlay {
     std::size_t told;
     physics::Vector2 believed;  ///< m, where its bat was at the window's end
   };
-  double off_by(const Sight& sight) const {
-    const im::Region bat = places_.at(sight.window)[sight.bat];
-    return (sight.believed - physics::Vector2(0.5 * (bat.low_x + bat.high_x), 0.5 * (bat.low_y + bat.high_y))).norm();
+  physics::Vector2 bat_at(const Sight& sight, std::uint64_t window) const {
+    const im::Region bat = places_.at(window)[sight.bat];
+    return {0.5 * (bat.low_x + bat.high_x), 0.5 * (bat.low_y + bat.high_y)};
+  }
+  double off_by(const Sight& sight) const { return (sight.believed - bat_at(sight, sight.window)).norm(); }
+  /// Whose bat was hit by something heavy looks for some windows where it would be without that: what was told of it is two windows old when others are told of the view.
+  bool turned_lately(const Sight& sight) const {
+    constexpr double told_ago = 2.0, turn = 0.03;  // windows; m, more than keys do in that time
+    for (std::uint64_t back = 0; back < 4; ++back) {
+      const std::uint64_t at = sight.window - back;
+      if (at < 3) continue;
+      const physics::Vector2 before = bat_at(sight, at - 2), step = before - bat_at(sight, at - 3);
+      if ((before + told_ago * step - bat_at(sight, at)).norm() > turn) return true;
+    }
+    return false;
   }
 
   class Watch final : public Onlooker {
