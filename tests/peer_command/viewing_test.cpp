@@ -68,7 +68,7 @@ TEST_F(Viewing, LetsNewcomersInWhoSeeAndAreSeen) {
   for (const std::string scheme : {"none", "region"}) {
     const auto file = [&](int k) { return (folder_ / ("peer" + std::to_string(k) + ".json")).string(); };
     const auto words = [&](int k, Words further) {
-      const Words all{"--pace", "realtime", "--bots", "1", "--view-area", "16", "--report", file(k)};
+      const Words all{"--pace", "realtime", "--bots", "1", "--view-area", "100", "--report", file(k)};
       further.insert(further.end(), all.begin(), all.end());
       return further;
     };
