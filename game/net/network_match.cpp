@@ -29,7 +29,7 @@ ToldBody told_of(const MirroredEntity& entity, double time) {
   return body;
 }
 
-bool is_kind(const MirroredEntity& entity, physics::BodyKind kind) { return entity.in_scope && entity.shape.kind == static_cast<std::uint8_t>(kind); }
+bool is_kind(const MirroredEntity& entity, physics::BodyKind kind) { return entity.in_scope && entity.is_placed && entity.shape.kind == static_cast<std::uint8_t>(kind); }
 
 }  // namespace
 

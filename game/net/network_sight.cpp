@@ -40,7 +40,7 @@ void NetworkMatch::show_mirror(double now_s) {
   sight_.time = mirror.newest().time + (mirror.newest().time > 0.0 ? now_s - heard_s_ : 0.0);
   sight_.things.clear();
   for (const MirroredEntity& entity : mirror.entities()) {
-    if (!entity.in_scope) continue;
+    if (!entity.in_scope || !entity.is_placed) continue;  // a budget may say later where it is, and what
     sight_.things.push_back({.id = entity.object.value,
                              .kind = static_cast<physics::BodyKind>(entity.shape.kind),
                              .team = static_cast<Team>(entity.shape.team),

@@ -46,6 +46,8 @@ class LockstepRink {
   std::size_t client_count() const { return clients_.size(); }
   const std::string& scheme() const { return settings_.scheme; }
   rti::FederationExecution& execution() { return execution_; }
+  /// Where the federation is called "rti", for who joins on his own.
+  rti::InProcessNetwork& network() { return network_; }
   /// Simulated time of the next key: tests set it between two ticks.
   double now = 0.0;
   std::uint64_t tick_number = 0;
