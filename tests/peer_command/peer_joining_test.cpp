@@ -1,4 +1,6 @@
 // Processes of rink-peer that come while others play, leave, and are killed: whoever is there at the end has the hash of one engine.
+#include <set>
+
 #include "game/peer/session.h"
 #include "rti/transport/tcp.h"
 #include "tests/peer_command/peer_processes.h"
@@ -62,6 +64,26 @@ TEST_F(PeerJoining, BringsItsOwnBotsAndIsRefusedMoreThanAreFree) {
   one.advance(3.0);
   EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(), [](const InputEvent& event) { return event.player >= 3; }));
   for (const Process* peer : {&first, &second}) EXPECT_EQ(hash_of(*peer), printed(one.hash()));
+}
+
+TEST_F(PeerJoining, SeveralWhoComeAtOnceEachPlayTheirOwnBats) {
+  const std::string file = (folder_ / "live.keys").string();
+  const Words real{"--pace", "realtime", "--bots", "1", "--players", "random"};
+  Words recorded = real;
+  recorded.insert(recorded.end(), {"--record", file});
+  Process& first = found(1, "4", recorded);
+  ASSERT_TRUE(are_playing({&first}));
+  std::vector<Process*> all{&first};
+  for (int k = 0; k < 5; ++k) all.push_back(&join(first, real));
+  for (const Process* peer : all) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(hash_of(*peer), hash_of(first));
+    EXPECT_NE(peer->line_after("  \"key_presses\": "), "0,");
+  }
+  std::set<std::uint32_t> players;
+  for (const InputEvent& event : read_key_log(std::filesystem::path(file)).events) players.insert(event.player);
+  EXPECT_EQ(players, (std::set<std::uint32_t>{0, 1, 2, 3, 4, 5}));
 }
 
 TEST_F(PeerJoining, MayBeAskedForBeforeTheFirstListens) {

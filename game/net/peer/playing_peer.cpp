@@ -104,7 +104,7 @@ void PlayingPeer::share() {
   const Terms& terms = meeting_->terms();
   if (terms.is_seated) throw Parting(ExitStatus::not_admitted, "the peers there are seated, and their players' keys are known: nobody can play at a window");
   const Viewing viewing = make_viewing(game_, *meeting_, {.view_fraction = settings_.view_fraction, .evidence = {}, .always = {}}, now_s_);
-  const Guest& self = meeting_->guests()[meeting_->number()];
+  const Guest self = meeting_->guests()[meeting_->number()];
   hand_.set_player(self.first_bat);
   if (!is_late) hand_.set_stage(PeerStage::Step::countdown, "", settings_.countdown_s);
   meeting_->begin();

@@ -199,12 +199,12 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
     settings.hooks.when_sending = [&manner](peer::Subject about) { manner.listener->when_sending(about); };
   }
   if (terms.is_seated && terms.peer_count > start_.player_count()) throw peer::ProtocolError("there are more peers than bats, and each is to have one in its zone");
+  const Guest self = guests[number];  // while a newcomer waits to be let in, others come, and the list grows
   if (manner.members.empty()) settings.players = players(terms, guests);
   std::optional<peer::Session> made;
   if (manner.members.empty()) made.emplace(start_.world(), terms.is_seated ? seated_division(start_, terms.peer_count).cuts : cuts(terms.peer_count), std::move(settings), mail, manner.when_taken);
   else made.emplace(start_.world(), std::move(settings), mail, manner.members);
   peer::Session& session = *made;
-  const Guest& self = guests[number];
   Crowd crowd(scene_, start_, manner.players, scene_.seed, self.first_bat + self.hand_count, self.bat_count - self.hand_count, session.peer().now(), terms.until);
   Membership membership(session, manner);
   if (!manner.members.empty() && manner.tell) manner.tell("peer " + std::to_string(number) + " is in from " + std::to_string(session.peer().now()) + " s");
