@@ -134,6 +134,8 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
         const bool has_pucks = std::all_of(state.scoring.face_offs.begin(), state.scoring.face_offs.end(), [&](const FaceOff& due) { return whole_.has_puck(due.puck); });
         if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) || !is_in_time(state))
           throw ProtocolError("peer " + std::to_string(from.front()) + " tells of a beginning that cannot be");
+        // Of those who are gone, too: it says what is wrong with bats that are not there.
+        for (const Player& player : state.players) settings_.seats_of(player);
         teller_ = from.front();
         return entry;
       }

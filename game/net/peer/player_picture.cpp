@@ -1,6 +1,8 @@
 // Reads update messages, body by body.
 #include "game/net/peer/player_picture.h"
 
+#include <cmath>
+
 #include "game/replication/attributes.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/wire/stream.h"
@@ -51,7 +53,7 @@ bool PlayerPicture::apply(peer::PeerNumber from, const ToldOf& told, double time
     belief.motion = motion_of(trajectory, drag_.of(kinds_[told.body]));
   } else {
     Position position;
-    if (!exchange(reader, position)) return false;
+    if (!exchange(reader, position) || !std::isfinite(position.x) || !std::isfinite(position.y)) return false;
     belief.motion.time = time;
     belief.motion.position = {static_cast<double>(position.x), static_cast<double>(position.y)};
   }

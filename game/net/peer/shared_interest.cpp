@@ -133,11 +133,17 @@ void SharedInterest::look_around() {
 /// Where it is, or was when it was last seen; at first, where it starts. Its owner shows it to live players from time to time, whatever the filter says.
 std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Belief& belief = picture_.belief(bat());
-  if (places_[bat()] != Place::away) seen_bat_ = peer_.world().position({bat()});
-  else if (belief.is_there) seen_bat_ = belief.position_at(peer_.now());
+  // Where a window is cut it may have gone since places were noted.
+  const bool is_here = peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
+  std::optional<physics::Vector2> place;
+  if (is_here) place = peer_.world().position({bat()});
+  else if (belief.is_there) place = belief.position_at(peer_.now());
   else
     for (const peer::Glimpse& glimpse : peer_.glimpses())
-      if (glimpse.bat == bat()) seen_bat_ = glimpse.position;
+      if (glimpse.bat == bat()) place = glimpse.position;
+  // Nobody who tells us of places where no bat can be has us look there.
+  const physics::Field& field = peer_.world().spec().field;
+  if (place && place->allFinite()) seen_bat_ = {std::clamp(place->x(), 0.0, field.length), std::clamp(place->y(), 0.0, field.width)};
   return seen_bat_;
 }
 
