@@ -73,7 +73,7 @@ function(rink_tests name)
   # What these sources test is optimised elsewhere, and without optimisation g++ takes two thirds of the time, under a sanitizer half. Only tests that compute much
   # in headers want it.
   if(NOT tests_OPTIMISED)
-    set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -O0)
+    target_compile_options(test-${name} PRIVATE -O0)
   endif()
   target_link_libraries(test-${name} PRIVATE ${tests_DEPENDS} rink_test_places rink_options GTest::gmock GTest::gtest_main)
   foreach(source IN LISTS sources)

@@ -14,6 +14,7 @@
 #include "loadgen/parameter.h"
 
 #include "loadgen/assertion_syntax.h"
+#include "loadgen/csv_number.h"
 
 namespace rink::loadgen {
 namespace {
@@ -194,8 +195,7 @@ Truth truth_of(const Node& node, const Values& values) {
 
 std::string value_text(const std::optional<double>& value) {
   if (!value) return "undefined (not measured, or too few samples)";
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), *value, std::chars_format::general, 6).ptr};
+  return six_digits(value);
 }
 
 /// "name = value" of each figure, or the numbers on both sides of a comparison without one.

@@ -16,6 +16,7 @@
 #include "game/net/flags.h"
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
+#include "game/net/speak_as.h"
 #include "game/net/network_match.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"

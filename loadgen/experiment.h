@@ -113,6 +113,12 @@ std::vector<Cell> cells_of(const Experiment& experiment);
 /// `cell` without the parameters that its scheme does not have: the size of cells is for schemes that have some, and with `none` neither margin nor sweep changes anything.
 Cell without_idle_parameters(Cell cell);
 
+/// What all replications of a cell have in common.
+inline Cell without_seed(Cell cell) {
+  cell.seed = 0;
+  return cell;
+}
+
 /// The cell that the ratios of `cell` refer to: the same but for `scheme` and `policy`.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
 

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <tuple>
+
+#include "loadgen/csv_number.h"
 
 namespace rink::loadgen {
 namespace {
@@ -73,13 +74,6 @@ void add_growths(const std::vector<const RunRecord*>& runs, const GrowthFactor& 
   }
 }
 
-std::string number(double value) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr};
-}
-
-std::string number(const std::optional<double>& value) { return value ? number(*value) : std::string(); }
-
 std::string locals_text(const PowerFit& fit) {
   std::ostringstream text;
   text.precision(4);
@@ -129,9 +123,9 @@ std::string to_csv(std::span<const Growth> growths) {
   std::string csv = "factor,mode,scheme,policy,held,figure,exponent,exponent_low,exponent_high,at_one,r_squared,points,places,bend,misfit_p,is_power_law,local_exponents\n";
   for (const Growth& growth : growths) {
     const PowerFit& fit = growth.fit;
-    csv += growth.factor + "," + growth.mode + "," + growth.scheme + "," + growth.policy + ",\"" + growth.held + "\"," + growth.figure + "," + number(fit.exponent) + "," +
-           number(fit.exponent_low) + "," + number(fit.exponent_high) + "," + number(fit.factor) + "," + number(fit.r_squared) + "," + std::to_string(fit.points) + "," +
-           std::to_string(fit.places) + "," + number(fit.bend) + "," + number(fit.misfit_p) + "," + (fit.is_rejected() ? "no" : "yes") + "," + locals_text(fit) + "\n";
+    csv += growth.factor + "," + growth.mode + "," + growth.scheme + "," + growth.policy + ",\"" + growth.held + "\"," + growth.figure + "," + six_digits(fit.exponent) + "," +
+           six_digits(fit.exponent_low) + "," + six_digits(fit.exponent_high) + "," + six_digits(fit.factor) + "," + six_digits(fit.r_squared) + "," + std::to_string(fit.points) + "," +
+           std::to_string(fit.places) + "," + six_digits(fit.bend) + "," + six_digits(fit.misfit_p) + "," + (fit.is_rejected() ? "no" : "yes") + "," + locals_text(fit) + "\n";
   }
   return csv;
 }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint64_t shortest_ns = 1u << 10;
 constexpr std::uint64_t longest_ns = (std::uint64_t{1} << 37) - 1;
-constexpr std::uint64_t parts = 512;  // per power of two
+constexpr std::uint64_t parts_per_octave = 512;  // an octave: a power of two
 
-std::uint64_t nanoseconds(double duration_s) {
+std::uint64_t clamped_ns(double duration_s) {
   if (!(duration_s * 1e9 < static_cast<double>(longest_ns))) return longest_ns;
   if (duration_s * 1e9 < static_cast<double>(shortest_ns)) return shortest_ns;
   return static_cast<std::uint64_t>(duration_s * 1e9);
@@ -22,12 +22,12 @@ std::uint64_t nanoseconds(double duration_s) {
 
 std::size_t bucket_of(std::uint64_t duration_ns) {
   const int shift = static_cast<int>(std::bit_width(duration_ns)) - 10;
-  return (static_cast<std::size_t>(shift) - 1) * parts + static_cast<std::size_t>((duration_ns >> shift) - parts);
+  return (static_cast<std::size_t>(shift) - 1) * parts_per_octave + static_cast<std::size_t>((duration_ns >> shift) - parts_per_octave);
 }
 
 double middle_s(std::size_t bucket) {
-  const std::size_t shift = bucket / parts + 1;
-  const double low_ns = static_cast<double>((bucket % parts + parts) << shift);
+  const std::size_t shift = bucket / parts_per_octave + 1;
+  const double low_ns = static_cast<double>((bucket % parts_per_octave + parts_per_octave) << shift);
   return (low_ns + 0.5 * static_cast<double>(std::uint64_t{1} << shift)) * 1e-9;
 }
 
@@ -39,7 +39,7 @@ Histogram::Histogram() : buckets_(bucket_count, 0) {}
 
 void Histogram::record(double duration_s, std::uint64_t times) {
   if (times == 0) return;
-  buckets_[bucket_of(nanoseconds(duration_s))] += times;
+  buckets_[bucket_of(clamped_ns(duration_s))] += times;
   const double finite_s = std::isfinite(duration_s) ? std::max(duration_s, 0.0) : static_cast<double>(longest_ns) * 1e-9;
   min_s_ = count_ == 0 ? finite_s : std::min(min_s_, finite_s);
   max_s_ = std::max(max_s_, finite_s);

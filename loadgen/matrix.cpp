@@ -16,16 +16,16 @@ bool is_in_design(const Experiment& experiment, const Cell& cell) {
 }
 
 /// What of a cell differs from the default, as (short name, value, words around the value).
-struct Difference {
+struct Variation {
   const char* name;
   std::string value;
   const char *before, *after;
 };
 
-std::vector<Difference> differences_of(const Cell& cell) {
+std::vector<Variation> variations_of(const Cell& cell) {
   const Parameters& own = cell.parameters;
   const Parameters standard;
-  std::vector<Difference> all;
+  std::vector<Variation> all;
   if (cell.pucks > 0) all.push_back({"pucks", std::to_string(cell.pucks), "", " pucks"});
   if (cell.bats > 0) all.push_back({"bats", std::to_string(cell.bats), "", " bats"});
   for (const ParameterKind& kind : parameter_kinds())
@@ -75,13 +75,13 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
 
 std::string name_of(const Cell& cell) {
   std::string name = cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy + "-" + std::to_string(cell.clients);
-  for (const Difference& difference : differences_of(cell)) name += std::string("-") + difference.name + difference.value;
+  for (const Variation& variation : variations_of(cell)) name += std::string("-") + variation.name + variation.value;
   return name + "-seed" + std::to_string(cell.seed);
 }
 
 std::string variant_of(const Cell& cell) {
   std::string words;
-  for (const Difference& difference : differences_of(cell)) words += (words.empty() ? "" : ", ") + (difference.before + difference.value + difference.after);
+  for (const Variation& variation : variations_of(cell)) words += (words.empty() ? "" : ", ") + (variation.before + variation.value + variation.after);
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "loadgen/summary.h"
+#include "loadgen/table_number.h"
 
 namespace rink::loadgen {
 namespace {
@@ -22,14 +23,6 @@ constexpr Column columns[] = {{"halo", "halo_bytes_per_client_per_s", 1e-3},    
                               {"busiest", "busiest_node_bytes_per_s", 1e-3},         {"events", "busiest_node_events_per_s", 1.0},        {"cpu s", "busiest_node_cpu_s", 1.0},
                               {"mean", "mean_node_cpu_s", 1.0},                      {"effect", "key_to_effect_ms_p50", 1.0},
                               {"recall", "delivered_recall", 1.0}};
-
-std::string shown(const std::optional<double>& value, double scale) {
-  if (!value) return "-";
-  char text[32];
-  const double scaled = *value * scale;
-  std::snprintf(text, sizeof text, "%.*f", scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2, scaled);
-  return text;
-}
 
 /// Of the interval of a mean, which is symmetric.
 std::optional<double> half_width(const Statistic& statistic) {
@@ -60,11 +53,11 @@ std::string modes_table(std::span<const RunRecord> runs) {
     char head[256];
     std::snprintf(head, sizeof head, "\n%7u %-*s %-9.9s %-13.13s", row.clients, static_cast<int>(width), row.scheme.c_str(), row.policy.c_str(), row.mode.c_str());
     text += head;
-    for (const Column& column : columns) text += " " + padded(shown(row.of(column.figure).mean, column.scale), 7);
+    for (const Column& column : columns) text += " " + padded(table_number(row.of(column.figure).mean, column.scale), 7);
     if (row.valid_runs < 2) continue;
     std::snprintf(head, sizeof head, "\n%7s %-*s %-9s %-13s", "", static_cast<int>(width), "", "", ("+- n=" + std::to_string(row.valid_runs)).c_str());
     text += head;
-    for (const Column& column : columns) text += " " + padded(shown(half_width(row.of(column.figure)), column.scale), 7);
+    for (const Column& column : columns) text += " " + padded(table_number(half_width(row.of(column.figure)), column.scale), 7);
   }
   return text + "\n";
 }

@@ -315,7 +315,7 @@ void PeerRun::judge(RunRecord& record) const {
   judge_peers(settings_, experiment_, record, sums, measurements_, server, bots);
 }
 
-void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
+void run_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
   const game::Scene scene = scene_of(experiment, cell);
   PeerRun run(settings, experiment, cell, scene, keys_in(key_log, scene));
   try {
@@ -329,7 +329,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
 }  // namespace
 
 std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  return recorded(experiment, cell, [&](RunRecord& record) { run(settings, experiment, cell, key_log, record); });
+  return recorded(experiment, cell, [&](RunRecord& record) { run_peers(settings, experiment, cell, key_log, record); });
 }
 
 }  // namespace rink::loadgen

@@ -7,8 +7,8 @@
 namespace rink::loadgen {
 namespace {
 
-std::string clock_text(double duration_s) {
-  const auto whole = static_cast<long>(std::ceil(duration_s));
+std::string left_text(double left_s) {
+  const auto whole = static_cast<long>(std::ceil(left_s));
   const std::string seconds = std::to_string(whole % 60);
   return std::to_string(whole / 60) + ":" + (seconds.size() < 2 ? "0" : "") + seconds;
 }
@@ -34,7 +34,7 @@ double Progress::left_s() const {
 
 void Progress::starts(const Cell& cell) {
   if (!is_terminal_) return;
-  out_ << "\r\033[K" << position(finished_count_ + 1, cell_count_) << words_for(cell) << "   about " << clock_text(left_s()) << " left" << std::flush;
+  out_ << "\r\033[K" << position(finished_count_ + 1, cell_count_) << words_for(cell) << "   about " << left_text(left_s()) << " left" << std::flush;
 }
 
 void Progress::finished(const RunRecord& record, double took_s) {
@@ -45,7 +45,7 @@ void Progress::finished(const RunRecord& record, double took_s) {
   if (!record.valid) {
     out_ << line << ": INVALID: " << record.why_invalid << "\n" << std::flush;
   } else if (!is_terminal_) {
-    out_ << line << ", about " << clock_text(left_s()) << " left\n" << std::flush;
+    out_ << line << ", about " << left_text(left_s()) << " left\n" << std::flush;
   }
 }
 

@@ -67,7 +67,7 @@ std::string libraries() {
   return text.str();
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string command_text(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
     const bool is_plain = !word.empty() && word.find_first_of(" \t\n'\"\\$*?;&|<>()") == std::string::npos;
@@ -112,7 +112,7 @@ Histogram wake_up_lateness() {
 }
 
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups) {
-  Provenance provenance{{{"taken", now_utc()}, {"command", joined(command_line)}}};
+  Provenance provenance{{{"taken", now_utc()}, {"command", command_text(command_line)}}};
   add_program_and_machine(provenance);
   provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
   return provenance;
@@ -125,7 +125,7 @@ Provenance reproducible_provenance_of(const std::vector<std::string>& command_li
     if (word == "--out") ++i;
     else if (!word.starts_with("--out=") && word != "--force" && word != "--resume") kept.push_back(i == 0 ? std::filesystem::path(word).filename().string() : word);
   }
-  Provenance provenance{{{"command", joined(kept)}}};
+  Provenance provenance{{{"command", command_text(kept)}}};
   add_program_and_machine(provenance);
   return provenance;
 }

@@ -87,7 +87,7 @@ class ReportReader {
   std::vector<std::string>& complaints_;
 };
 
-std::string shown(double number) {
+std::string plain_text(double number) {
   std::string text = std::to_string(number);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
@@ -96,7 +96,7 @@ std::string shown(double number) {
 
 void compare_counts(const std::string& what, std::optional<double> payload, std::optional<double> kernel, double clients, std::vector<std::string>& complaints) {
   if (!payload || !kernel || std::abs(*payload - *kernel) <= count_mismatch_max * *kernel + in_flight_bytes_max * clients) return;
-  complaints.push_back(what + ": " + shown(*payload) + " B counted, " + shown(*kernel) + " B by the kernel, more than 1 % and what may be on its way apart");
+  complaints.push_back(what + ": " + plain_text(*payload) + " B counted, " + plain_text(*kernel) + " B by the kernel, more than 1 % and what may be on its way apart");
 }
 
 void expect_none(const std::string& what, std::optional<std::uint64_t> count, std::vector<std::string>& complaints) {
@@ -104,7 +104,7 @@ void expect_none(const std::string& what, std::optional<std::uint64_t> count, st
 }
 
 void expect_equal(const std::string& what, std::optional<double> value, double expected, std::vector<std::string>& complaints) {
-  if (value && *value != expected) complaints.push_back(what + " is " + shown(*value) + " instead of " + shown(expected));
+  if (value && *value != expected) complaints.push_back(what + " is " + plain_text(*value) + " instead of " + plain_text(expected));
 }
 
 std::optional<double> per(std::optional<double> amount, std::optional<double> divisor) {

@@ -13,7 +13,7 @@
 namespace rink::loadgen {
 namespace {
 
-std::string shown(double number) {
+std::string four_digits(double number) {
   std::ostringstream text;
   text.precision(4);
   text << number;
@@ -121,18 +121,18 @@ class Bracketing {
 Judgement judgement_of(const RunRecord& record, const ServiceLevel& level) {
   if (!record.valid) {
     const auto on_time = record.ticks_on_time_fraction;
-    return {Verdict::invalid, record.why_invalid + (on_time ? " (while the server had " + shown(100.0 * *on_time) + " % of its ticks on time)" : "")};
+    return {Verdict::invalid, record.why_invalid + (on_time ? " (while the server had " + four_digits(100.0 * *on_time) + " % of its ticks on time)" : "")};
   }
   if (!record.ticks_on_time_fraction) return {Verdict::invalid, "the run has no ticks_on_time_fraction"};
   std::string why;
   if (*record.ticks_on_time_fraction < level.on_time_fraction_min) {
-    why = "ticks: " + shown(100.0 * *record.ticks_on_time_fraction) + " % on time, below " + shown(100.0 * level.on_time_fraction_min) + " %";
+    why = "ticks: " + four_digits(100.0 * *record.ticks_on_time_fraction) + " % on time, below " + four_digits(100.0 * level.on_time_fraction_min) + " %";
   }
   const Percentiles& age = record.update_age_ms;
   const std::optional<double> bound = age.p99 ? age.p99 : age.max;
   const bool is_old = !bound || *bound >= level.age_p99_ms_max;
   if (is_old && age.p99) {
-    why += (why.empty() ? "" : "; ") + ("age: p99 " + shown(*age.p99)) + " ms, not below " + shown(level.age_p99_ms_max) + " ms";
+    why += (why.empty() ? "" : "; ") + ("age: p99 " + four_digits(*age.p99)) + " ms, not below " + four_digits(level.age_p99_ms_max) + " ms";
   }
   if (!why.empty()) return {Verdict::fails, why};
   if (is_old) return {Verdict::invalid, "too few updates for the p99 of their age: the run is too short"};

@@ -1,11 +1,12 @@
 // What searches for saturation found, as table, CSV and JSON.
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "loadgen/csv_number.h"
 #include "loadgen/parameter.h"
 #include "loadgen/saturate_command.h"
+#include "loadgen/summary.h"
 
 namespace rink::loadgen {
 namespace {
@@ -25,28 +26,18 @@ const char* name_of(Verdict verdict) { return verdict == Verdict::holds ? "holds
 
 std::optional<double> age_p99_of(const RunRecord& run) { return run.update_age_ms.p99; }
 
-struct Column {
-  const char* name;
-  std::optional<double> (*of)(const RunRecord&);
-};
-constexpr std::array columns{
-    Column{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
-    Column{"update_age_ms_p99", age_p99_of},
-    Column{"physics_us_per_tick", [](const RunRecord& run) { return run.physics_us_per_tick; }},
-    Column{"filter_us_per_tick", [](const RunRecord& run) { return run.filter_us_per_tick; }},
-    Column{"send_us_per_tick", [](const RunRecord& run) { return run.send_us_per_tick; }},
-    Column{"down_bytes_per_client_per_s", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
-    Column{"wire_bytes_per_client_per_s", [](const RunRecord& run) { return run.wire_bytes_per_client_per_s; }},
-    Column{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }},
+constexpr std::array edge_figures{
+    Figure{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
+    Figure{"update_age_ms_p99", age_p99_of},
+    Figure{"physics_us_per_tick", [](const RunRecord& run) { return run.physics_us_per_tick; }},
+    Figure{"filter_us_per_tick", [](const RunRecord& run) { return run.filter_us_per_tick; }},
+    Figure{"send_us_per_tick", [](const RunRecord& run) { return run.send_us_per_tick; }},
+    Figure{"down_bytes_per_client_per_s", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
+    Figure{"wire_bytes_per_client_per_s", [](const RunRecord& run) { return run.wire_bytes_per_client_per_s; }},
+    Figure{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }},
 };
 
-std::optional<double> at_edge(const Saturation& saturation, const Column& column) { return saturation.edge ? column.of(*saturation.edge) : std::nullopt; }
-
-std::string number(std::optional<double> value) {
-  if (!value) return {};
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), *value).ptr};
-}
+std::optional<double> at_edge(const Saturation& saturation, const Figure& figure) { return saturation.edge ? figure.of(*saturation.edge) : std::nullopt; }
 
 std::string whole(std::optional<std::uint32_t> value) { return value ? std::to_string(*value) : std::string(); }
 
@@ -86,15 +77,15 @@ std::string to_csv(std::span<const Saturation> found) {
   std::string csv = "mode,scheme,policy,pucks,server_cores";
   for (const ParameterKind& kind : parameter_kinds()) csv += std::string(",") + kind.key;
   csv += ",end,held_clients,failed_clients,why,probes";
-  for (const Column& column : columns) csv += std::string(",") + column.name;
+  for (const Figure& figure : edge_figures) csv += std::string(",") + figure.name;
   csv += "\n";
   for (const Saturation& saturation : found) {
     const Cell& cell = saturation.cell;
     csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.server_cores);
-    for (const ParameterKind& kind : parameter_kinds()) csv += "," + number(kind.of(cell.parameters));
+    for (const ParameterKind& kind : parameter_kinds()) csv += "," + csv_number(kind.of(cell.parameters));
     csv += std::string(",") + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," +
            quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
-    for (const Column& column : columns) csv += "," + number(at_edge(saturation, column));
+    for (const Figure& figure : edge_figures) csv += "," + csv_number(at_edge(saturation, figure));
     csv += "\n";
   }
   return csv;
@@ -109,7 +100,7 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
     for (const Trial& trial : saturation.search.trials) probes.push_back({{"clients", trial.clients}, {"attempt", trial.attempt}, {"verdict", name_of(trial.verdict)}});
     if (saturation.edge) {
       edge = Json::object();
-      for (const Column& column : columns) edge[column.name] = or_null(column.of(*saturation.edge));
+      for (const Figure& figure : edge_figures) edge[figure.name] = or_null(figure.of(*saturation.edge));
     }
     const Cell& cell = saturation.cell;
     Json search{{"mode", cell.mode}, {"scheme", cell.scheme}, {"policy", cell.policy}, {"pucks", cell.pucks}, {"server_cores", cell.server_cores}};
@@ -130,7 +121,7 @@ std::string table_of(std::span<const Saturation> found, const ServiceLevel& leve
   std::snprintf(line.data(), line.size(), "%-12s %-13s %5s %13s %6s %7s %7s %7s %9s  %s\n", "scheme", "policy", "cores", "held", "failed", "physics", "filter", "send", "down kB/s", "why it failed");
   text += line.data();
   for (const Saturation& saturation : found) {
-    const auto part = [&saturation](std::size_t column) { return thousand(at_edge(saturation, columns[column])); };
+    const auto part = [&saturation](std::size_t figure) { return thousand(at_edge(saturation, edge_figures[figure])); };
     std::snprintf(line.data(), line.size(), "%-12.12s %-13.13s %5u %13s %6s %7s %7s %7s %9s  %s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
                   saturation.cell.server_cores, held_text(saturation.search).c_str(), whole(saturation.search.failed).c_str(), part(2).c_str(), part(3).c_str(),
                   part(4).c_str(), part(5).c_str(), shortened(saturation.why).c_str());

@@ -3,32 +3,25 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
+
+#include "loadgen/csv_number.h"
+#include "loadgen/summary.h"
 
 namespace rink::loadgen {
 namespace {
 
-struct Quantity {
-  const char* name;
-  std::optional<double> (*of)(const RunRecord&);
-};
-constexpr std::array quantities{
-    Quantity{"total_us_per_tick", [](const RunRecord& run) { return run.total_us_per_tick(); }},
-    Quantity{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
-    Quantity{"update_age_ms_p50", [](const RunRecord& run) { return run.update_age_ms.p50; }},
-    Quantity{"update_age_ms_p99", [](const RunRecord& run) { return run.update_age_ms.p99; }},
-    Quantity{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},
+constexpr std::array compared_figures{
+    Figure{"total_us_per_tick", [](const RunRecord& run) { return run.total_us_per_tick(); }},
+    Figure{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
+    Figure{"update_age_ms_p50", [](const RunRecord& run) { return run.update_age_ms.p50; }},
+    Figure{"update_age_ms_p99", [](const RunRecord& run) { return run.update_age_ms.p99; }},
+    Figure{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},
 };
 
 struct Pair {
   const RunRecord *apart, *anywhere;
 };
-
-Cell without_seed(Cell cell) {
-  cell.seed = 0;
-  return cell;
-}
 
 /// The pairs of one cell in order of their first run, a group per cell.
 std::vector<std::vector<Pair>> pairs_of(std::span<const RunRecord> runs) {
@@ -50,21 +43,16 @@ std::vector<std::vector<Pair>> pairs_of(std::span<const RunRecord> runs) {
 }
 
 /// Nothing if some run lacks the figure or has 0, of which there is no ratio.
-std::optional<CoresRatio> cores_ratio(const std::vector<Pair>& pairs, const Quantity& quantity) {
+std::optional<CoresRatio> cores_ratio(const std::vector<Pair>& pairs, const Figure& figure) {
   std::vector<std::pair<double, double>> values;
   for (const Pair& pair : pairs) {
-    const auto apart = quantity.of(*pair.apart), anywhere = quantity.of(*pair.anywhere);
+    const auto apart = figure.of(*pair.apart), anywhere = figure.of(*pair.anywhere);
     if (!apart || !anywhere) return std::nullopt;
     values.emplace_back(*anywhere, *apart);
   }
   const auto ratio = ratio_of(values);
   if (!ratio) return std::nullopt;
-  return CoresRatio{pairs.front().apart->cell, quantity.name, *ratio};
-}
-
-std::string number(double value) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr};
+  return CoresRatio{pairs.front().apart->cell, figure.name, *ratio};
 }
 
 }  // namespace
@@ -72,8 +60,8 @@ std::string number(double value) {
 std::vector<CoresRatio> cores_ratios_of(std::span<const RunRecord> runs) {
   std::vector<CoresRatio> ratios;
   for (const std::vector<Pair>& pairs : pairs_of(runs))
-    for (const Quantity& quantity : quantities)
-      if (const auto ratio = cores_ratio(pairs, quantity)) ratios.push_back(*ratio);
+    for (const Figure& figure : compared_figures)
+      if (const auto ratio = cores_ratio(pairs, figure)) ratios.push_back(*ratio);
   return ratios;
 }
 
@@ -83,7 +71,7 @@ std::string to_csv(std::span<const CoresRatio> ratios) {
     const Cell& cell = ratio.cell;
     const auto& interval = ratio.ratio.interval;
     csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.bats) + "," +
-           ratio.figure + "," + std::to_string(ratio.ratio.pairs) + "," + number(ratio.ratio.value) + "," + (interval ? number(interval->low) + "," + number(interval->high) : ",") + "\n";
+           ratio.figure + "," + std::to_string(ratio.ratio.pairs) + "," + six_digits(ratio.ratio.value) + "," + (interval ? six_digits(interval->low) + "," + six_digits(interval->high) : ",") + "\n";
   }
   return csv;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -12,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "loadgen/csv_number.h"
 #include "loadgen/parameter.h"
 
 namespace rink::loadgen {
@@ -107,11 +107,6 @@ Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>
   return result;
 }
 
-Cell without_seed(Cell cell) {
-  cell.seed = 0;
-  return cell;
-}
-
 std::vector<SummaryRow> empty_rows(std::span<const RunRecord> runs) {
   std::vector<SummaryRow> rows;
   for (const RunRecord& run : runs) {
@@ -154,13 +149,6 @@ std::size_t index_of(const char* name) {
   const auto figure = std::find_if(all_figures.begin(), all_figures.end(), [name](const Figure& f) { return std::string_view(f.name) == name; });
   assert(figure != all_figures.end());
   return static_cast<std::size_t>(figure - all_figures.begin());
-}
-
-std::string csv_number(std::optional<double> value) {
-  if (!value) return {};
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), *value).ptr;
-  return {digits.data(), end};
 }
 
 std::string csv_text(const std::string& text) {

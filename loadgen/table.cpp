@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "loadgen/parameter.h"
+#include "loadgen/table_number.h"
 
 namespace rink::loadgen {
 namespace {
@@ -19,14 +20,6 @@ std::string formatted(const char* format, Arguments... arguments) {
   char text[256];
   std::snprintf(text, sizeof text, format, arguments...);
   return text;
-}
-
-/// Three significant digits or all digits before the point, `-` if absent; `scale` turns the figure's unit into the column's.
-std::string shown(const std::optional<double>& value, double scale = 1.0) {
-  if (!value) return "-";
-  const double scaled = *value * scale;
-  const int decimals = scaled >= 99.95 ? 0 : scaled >= 9.995 ? 1 : 2;
-  return formatted("%.*f", decimals, scaled);
 }
 
 std::string percent(const std::optional<double>& fraction) {
@@ -43,8 +36,8 @@ std::string fraction_text(const std::optional<double>& fraction) {
 std::string times_less(const std::optional<Ratio>& ratio) {
   if (!ratio) return "-";
   const Ratio less = ratio->inverse();
-  if (!less.interval) return shown(less.value) + " (one run)";
-  return shown(less.value) + " [" + shown(less.interval->low) + ", " + shown(less.interval->high) + "]" + (less.difference() == Difference::insignificant ? " ~" : "");
+  if (!less.interval) return table_number(less.value) + " (one run)";
+  return table_number(less.value) + " [" + table_number(less.interval->low) + ", " + table_number(less.interval->high) + "]" + (less.difference() == Difference::insignificant ? " ~" : "");
 }
 
 /// The parameters in which rows differ, and how long their schemes' names are.
@@ -85,7 +78,7 @@ std::string rest_of(SummaryRow row, const Columns& columns) {
 }
 
 std::string line_of(const SummaryRow& row, const Baseline& baseline, const Columns& columns) {
-  const auto mean = [&row](const char* name, double scale = 1.0) { return shown(row.of(name).mean, scale); };
+  const auto mean = [&row](const char* name, double scale = 1.0) { return table_number(row.of(name).mean, scale); };
   const std::string runs = row.invalid_runs == 0 ? std::to_string(row.valid_runs)
                                                  : std::to_string(row.valid_runs) + "/" + std::to_string(row.valid_runs + row.invalid_runs);
   const bool is_baseline = row.scheme == baseline.scheme && row.policy == baseline.policy;
@@ -135,7 +128,7 @@ std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& base
     text += formatted("%u clients, %s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + (row.mode == rows.front().mode ? "" : ", " + row.mode) + ": " +
             times_less(row.ratio(payload)) + " times less payload\n";
     text += "        filter alone " + times_less(filter->ratio(payload)) + ", policy alone " + times_less(policy->ratio(payload)) + "; displayed error " +
-            shown(row.of(error).mean) + " mm beside " + shown(none->of(error).mean) + " mm\n";
+            table_number(row.of(error).mean) + " mm beside " + table_number(none->of(error).mean) + " mm\n";
   }
   return text.empty() ? text : "gains over " + baseline.scheme + " with " + baseline.policy + ", 95 % intervals over seeds:\n" + text;
 }

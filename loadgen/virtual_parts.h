@@ -22,6 +22,9 @@ namespace rink::loadgen {
 /// The record of `cell`, which `run` fills; nothing if it throws Interrupted. Throws ExperimentError for what of the scene or the key log cannot be read.
 std::optional<RunRecord> recorded(const Experiment& experiment, const Cell& cell, const std::function<void(RunRecord&)>& run);
 
+/// What a server listens at in the network of a run.
+inline constexpr const char* server_name = "server";
+
 inline constexpr std::int64_t second_ns = 1'000'000'000;
 
 inline std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }

@@ -27,8 +27,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* server_name = "server";
-
 class VirtualRun {
  public:
   VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys);

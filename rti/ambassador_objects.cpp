@@ -6,8 +6,6 @@ namespace rink::rti {
 
 namespace {
 
-std::string name_of(ObjectHandle object) { return "object " + std::to_string(object.value); }
-
 void require_tag(Bytes tag) {
   if (tag.size() > request_tag_max) throw RtiException(HlaError::rti_internal_error, "a request's tag has at most 1,024 bytes");
 }

@@ -7,8 +7,6 @@ namespace rink::rti {
 
 namespace {
 
-std::string name_of(ObjectHandle object) { return "object " + std::to_string(object.value); }
-
 void require(bool is_met, HlaError error, ObjectHandle object, std::string_view expected) {
   if (!is_met) throw RtiException(error, name_of(object) + ": " + std::string(expected));
 }

@@ -1,11 +1,15 @@
-// How an ambassador puts a message at the end of what goes out; for its own sources only.
+// How an ambassador puts a message at the end of what goes out, and names what it complains of; for its own sources only.
 #pragma once
 
 #include <cassert>
+#include <string>
 
 #include "rti/ambassador.h"
 
 namespace rink::rti {
+
+/// As exceptions call it.
+inline std::string name_of(ObjectHandle object) { return "object " + std::to_string(object.value); }
 
 template <class Message>
 void AmbassadorParts::say(Message message) {

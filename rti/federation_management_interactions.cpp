@@ -9,8 +9,6 @@ using Outcome = std::optional<Violation>;
 namespace {
 /// A list of labels ends before it would be longer than an interaction may be.
 constexpr std::size_t label_bytes_max = 30'000;
-/// What an interaction costs beside its parameters, roughly.
-constexpr std::size_t interaction_head = 16;
 }  // namespace
 
 /// An interaction whose receiver is the RTI itself; others may listen too.

@@ -29,6 +29,9 @@
 
 namespace rink::rti {
 
+/// What an interaction costs beside its parameters, roughly.
+inline constexpr std::size_t interaction_head = 16;
+
 class FederationExecution::Parts {
  public:
   Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter);

@@ -8,9 +8,6 @@ namespace rink::rti {
 
 using Outcome = std::optional<Violation>;
 
-/// What an interaction costs beside its parameters, roughly.
-constexpr std::size_t interaction_head = 16;
-
 void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
   if (id >= connections_.size() || connections_[id].phase == Phase::unknown) return;
   counters_.bytes_received += bytes.size();

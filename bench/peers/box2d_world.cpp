@@ -13,7 +13,6 @@
 namespace rink::peers {
 namespace {
 
-constexpr double wall_thickness = 1.0;                           ///< half of it [m]
 constexpr int velocity_iterations = 8, position_iterations = 3;  // the manual's advice
 constexpr std::uintptr_t wall_kind = 3;                          ///< others have their BodyKind
 

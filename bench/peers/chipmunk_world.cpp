@@ -13,7 +13,6 @@
 namespace rink::peers {
 namespace {
 
-constexpr double wall_thickness = 1.0;  ///< half of it [m]: thin walls would let through what Chipmunk, which looks only at the ends of frames, sees on neither side
 constexpr cpCollisionType wall_type = 3;  ///< others have their BodyKind
 
 cpVect to_vect(const Vector2& vector) { return cpv(vector.x(), vector.y()); }

@@ -9,6 +9,9 @@
 
 namespace rink::peers {
 
+/// Half of it [m]: thin walls would let through what Chipmunk, which looks only at the ends of frames, sees on neither side.
+inline constexpr double wall_thickness = 1.0;
+
 /// A library's world as a Simulator. A peer says how bodies are made, moved and asked; the rest is here.
 class PeerWorld : public physics::Simulator {
  public:

@@ -29,7 +29,7 @@ void ask(const Tree& tree, const Box& where, const Take& take) {
   tree.query(geometry::index::intersects(where), boost::make_function_output_iterator([&](const Value& value) { take(value.first, value.second); }));
 }
 
-void match(std::span<const im::Region> updates, std::span<const im::Region> subscriptions, std::vector<RegionPair>& pairs) {
+void match_in_tree(std::span<const im::Region> updates, std::span<const im::Region> subscriptions, std::vector<RegionPair>& pairs) {
   const Tree tree = tree_of(updates);
   for (std::uint32_t id = 0; id < subscriptions.size(); ++id) ask(tree, box(subscriptions[id]), [&](const Box&, std::uint32_t update) { pairs.push_back({id, update}); });
 }
@@ -71,7 +71,7 @@ class MovingTrees final : public MovingRegions {
 
 }  // namespace
 
-extern const RegionMatch match_by_rtree = match;
+extern const RegionMatch match_by_rtree = match_in_tree;
 
 std::unique_ptr<MovingRegions> make_moving_rtrees(std::span<const im::Region> updates, std::span<const im::Region> subscriptions) {
   return std::make_unique<MovingTrees>(updates, subscriptions);

@@ -16,7 +16,7 @@
 namespace rink::game {
 namespace {
 
-constexpr std::uint64_t size_max = 1u << 28;  // bytes: a crowd's keys of some days
+constexpr std::uint64_t packed_size_max = 1u << 28;  // bytes: a crowd's keys of some days
 constexpr double millisecond = 1e-3;
 constexpr std::int64_t ulps_max = 127;       // so far is what a player's arithmetic makes of a whole millisecond
 
@@ -229,7 +229,7 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
   std::array<std::uint64_t, 2> numbers{};  // checksum, size
   if (head.size() < sizeof numbers) throw SceneError(name + ": is cut off after its first line");
   std::memcpy(numbers.data(), head.data(), sizeof numbers);
-  if (numbers[1] > size_max) throw SceneError(name + ": was altered: it says that it is " + std::to_string(numbers[1]) + " bytes long, allowed are " + std::to_string(size_max));
+  if (numbers[1] > packed_size_max) throw SceneError(name + ": was altered: it says that it is " + std::to_string(numbers[1]) + " bytes long, allowed are " + std::to_string(packed_size_max));
   const std::string bytes = read_up_to(stream, numbers[1] + 1);
   if (bytes.size() < numbers[1]) throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " + std::to_string(numbers[1]) + " bytes are there");
   if (bytes.size() > numbers[1]) throw SceneError(name + ": was altered: it goes on after its end");

@@ -1,9 +1,9 @@
 // The order of columns and keys, which scripts rely on.
 #include "game/control/simulate_report.h"
 
-#include <cinttypes>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "game/model/byte_hash.h"
 
 namespace rink::game {
 namespace {
@@ -21,12 +21,6 @@ Json by_kind(physics::Counters counters) {
   Json kinds;
   for (std::size_t kind = 0; kind < physics::event_kind_names.size(); ++kind) kinds[physics::event_kind_names[kind]] = counters.of(static_cast<physics::EventKind>(kind));
   return kinds;
-}
-
-std::string hexadecimal(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016" PRIx64, hash);
-  return text;
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // What the networked commands share on the way in and out: checked flags, last words, files for results, the memory they took.
 #pragma once
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -47,12 +45,6 @@ inline CLI::Validator zero_or_number_from(double low, double high) {
     return objection.empty() || (CLI::detail::lexical_cast(text, value) && value == 0.0) ? std::string() : objection + ", nor 0";
   };
   return CLI::Validator(check, "0 or " + from.get_description());
-}
-
-/// Troubles go to the standard error as "command: trouble"; spdlog's own choice would mix them with the report on the standard output.
-inline void speak_as(const std::string& command) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt(command));
-  spdlog::set_pattern("%n: %v");
 }
 
 /// Throws std::runtime_error if `path` is given and cannot be written, before a run that would be lost. An existing file keeps its content.

@@ -28,6 +28,7 @@
 #include "game/net/serve_requirements.h"
 #include "game/net/serve_status.h"
 #include "game/net/serving.h"
+#include "game/net/speak_as.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "game/physics/motion.h"
 
 namespace rink::peer {
 
 using physics::Vector2;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Closed, in metres; sides may lie at infinity.
 struct Box {

@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "game/peer/cuts.h"
@@ -11,8 +10,6 @@
 namespace rink::peer {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string text_of(const Box& box) {
   std::ostringstream text;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -12,8 +11,6 @@
 namespace rink::peer {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t body) { return std::binary_search(sorted.begin(), sorted.end(), body); }
 

@@ -13,7 +13,6 @@ namespace rink::peer {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Bodies further apart than this do nothing to each other at an instant [m]: twice the widest gap in the engine's clusters, and all roundings.
 constexpr double touch_margin = 4e-5;
 /// What comes within this time of each other is taken as simultaneous [s]: twice the engine's instant.

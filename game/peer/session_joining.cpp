@@ -9,7 +9,7 @@ namespace rink::peer {
 
 namespace {
 
-bool contains(const std::vector<PeerNumber>& peers, PeerNumber peer) { return std::find(peers.begin(), peers.end(), peer) != peers.end(); }
+bool is_among(const std::vector<PeerNumber>& peers, PeerNumber peer) { return std::find(peers.begin(), peers.end(), peer) != peers.end(); }
 
 const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t token) {
   const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& one) { return one.newcomer.token == token; });
@@ -62,10 +62,10 @@ void Session::admit(State& next) const {
   const std::vector<PeerNumber> zoned = next.cuts.peers();
   const auto stays = [&](PeerNumber sponsor) { return next.has(sponsor) && State::is_in(zoned, sponsor); };
   const auto is_reached = [&](PeerNumber candidate) {
-    return std::all_of(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !next.has(peer) || contains(peer_->verdict_of(peer).admission.reached, candidate); });
+    return std::all_of(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !next.has(peer) || is_among(peer_->verdict_of(peer).admission.reached, candidate); });
   };
   std::erase_if(next.admitted, [&](const Candidate& one) { return !next.has(one.number); });
-  std::erase_if(next.candidates, [&](const Candidate& one) { return !stays(one.sponsor) || contains(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number); });
+  std::erase_if(next.candidates, [&](const Candidate& one) { return !stays(one.sponsor) || is_among(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number); });
   if (next.window + 2 > settings_.window_count || next.scoring.is_over) next.candidates.clear();
   const auto first = std::find_if(next.candidates.begin(), next.candidates.end(), [&](const Candidate& one) { return is_reached(one.number); });
   if (first != next.candidates.end()) {

@@ -10,7 +10,6 @@
 namespace rink::physics {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// With fewer bodies all is near at hand, and to look ahead costs a fifth.
 constexpr std::size_t look_ahead_min = 30'000;
 }

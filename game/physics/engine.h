@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,10 @@ namespace rink::physics {
 constexpr double instant = 1e-9;
 /// Bodies nearer than this take part in a hop [m].
 constexpr double cluster_gap = 2e-6;
+/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
+template <class Real>
+constexpr Real separation_min = 1e-14 * fineness<Real>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
 template <class Real>

@@ -1,6 +1,5 @@
 // Coulomb friction with the table: of pucks that slide on their own, and of those that are pushed, whose friction turns with their velocity.
 #include <algorithm>
-#include <limits>
 
 #include "game/physics/engine.h"
 
@@ -8,7 +7,6 @@ namespace rink::physics {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// By so much the velocity of a pushed puck turns [rad] before its friction is aimed anew; what the arc's middle then misses is below turn_max^2/24 of it.
 constexpr double turn_max = 1.0 / 128.0;
 /// Or its speed changes by this part, for the turn slows down as the speed grows.

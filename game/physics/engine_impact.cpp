@@ -9,9 +9,6 @@ namespace {
 
 /// Pressed contact has at least this closing acceleration [m/s^2]; below it a contact counts as unpressed.
 constexpr double press_min = 1e-7;
-/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
-template <class Real>
-constexpr Real separation_min = 1e-14 * fineness<Real>;
 
 }  // namespace
 

@@ -2,13 +2,8 @@
 #include "game/physics/engine.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace rink::physics {
-
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
 
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body. Whether another impact follows within the instant does not depend on
 /// the order of the offers.

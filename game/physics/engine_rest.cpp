@@ -1,6 +1,5 @@
 // Rest contacts: bodies pressed together along an axis share velocity and acceleration along it, and have no events until something changes.
 #include <algorithm>
-#include <limits>
 
 #include "game/physics/engine.h"
 
@@ -8,7 +7,6 @@ namespace rink::physics {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A contact this near to the end of a face, and moving towards it, does not come to rest [m].
 constexpr double face_margin = 1e-9;
 /// Sides that would accelerate apart by more than this let go [m/s^2].

@@ -23,9 +23,6 @@ constexpr double clear_of_touching = 1e-6;
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
 template <class Real>
 constexpr Real rest_of_closing = 4e-13 * fineness<Real>;
-/// Likewise the least separation that an impulse leaves.
-template <class Real>
-constexpr Real separation_min = 1e-14 * fineness<Real>;
 /// A contact of whose effect no more than this is left by those of others, relative to it, is implied by them.
 template <class Real>
 constexpr Real superfluous = 1e-12 * fineness<Real>;

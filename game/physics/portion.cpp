@@ -9,10 +9,6 @@
 
 namespace rink::physics {
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
-
 std::uint64_t most_at_once(std::span<const double> times) {
   constexpr double roundings = 32.0;  // twice as long as the engine's instant, for times may be some roundings out of order
   std::size_t most = 0, first = 0;

@@ -13,7 +13,6 @@ using physics::Vector2;
 
 double rounded_to(double step, double value) { return std::nearbyint(value / step) * step; }
 Vector2 rounded_to(double step, const Vector2& value) { return {rounded_to(step, value.x()), rounded_to(step, value.y())}; }
-Vector2 single_precision(const Vector2& value) { return {game::single_precision(value.x()), game::single_precision(value.y())}; }
 
 /// `motion` at an instant that may be a little before its time, where Motion::at may not be asked: the same closed form run backwards.
 Motion at_or_before(const Motion& motion, double instant) {

@@ -64,6 +64,7 @@ inline double single_precision(double value) {
   constexpr std::uint64_t finer = (1u << 29) - 1;
   return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + (finer >> 1) + 1) & ~finer);
 }
+inline physics::Vector2 single_precision(const physics::Vector2& value) { return {single_precision(value.x()), single_precision(value.y())}; }
 
 /// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);

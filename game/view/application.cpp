@@ -1,14 +1,13 @@
 // Keys to the match or to the menu, wishes to whoever can fulfil them, and a picture of it all.
 #include "game/view/application.h"
 
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "game/match/replay_match.h"
+#include "game/view/glfw.h"
 #include "game/view/zones_overlay.h"
 
 namespace rink::view {

@@ -12,13 +12,8 @@ namespace {
 
 using game::InterestSeen;
 
-constexpr Colour heard{0.05f, 0.62f, 0.20f, 1.0f}, hearing{0.95f, 0.50f, 0.02f, 1.0f}, asked_of{0.80f, 0.05f, 0.75f, 1.0f}, clear{0.0f, 0.0f, 0.0f, 0.0f};
+constexpr Colour heard{0.05f, 0.62f, 0.20f, 1.0f}, hearing{0.95f, 0.50f, 0.02f, 1.0f}, asked_of{0.80f, 0.05f, 0.75f, 1.0f};
 constexpr float faint = 0.30f;
-
-Colour faded(Colour colour, float alpha) {
-  colour.alpha = alpha;
-  return colour;
-}
 
 OverlayDisc ring(const Thing& thing, const Colour& colour, double room) { return {thing.position.x(), thing.position.y(), thing.half_extent.norm() + room, colour, false}; }
 

@@ -1,7 +1,6 @@
 // Feeds Dear ImGui from WindowEvents and draws it with its own OpenGL back end.
 #include "game/view/interface.h"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui/backends/imgui_impl_opengl3.h>
 
@@ -10,6 +9,8 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
+
+#include "game/view/glfw.h"
 
 namespace rink::view {
 namespace {

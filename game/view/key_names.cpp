@@ -1,9 +1,8 @@
 // Names of the keys on a keyboard, as settings and scripts write them.
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 #include <cctype>
 
+#include "game/view/glfw.h"
 #include "game/view/settings.h"
 
 namespace rink::view {

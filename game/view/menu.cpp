@@ -1,13 +1,13 @@
 // One function a screen; every screen works with the mouse and with arrows, Enter and Escape.
 #include "game/view/menu.h"
 
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui/imgui_stdlib.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "game/view/glfw.h"
 #include "game/view/picture_of.h"
 
 namespace rink::view {

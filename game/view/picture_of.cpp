@@ -9,7 +9,7 @@
 namespace rink::view {
 namespace {
 
-constexpr Colour white{0.96f, 0.97f, 1.0f, 1.0f}, pale{0.72f, 0.77f, 0.86f, 1.0f};
+constexpr Colour bright{0.96f, 0.97f, 1.0f, 1.0f}, pale{0.72f, 0.77f, 0.86f, 1.0f};
 
 /// Mixes towards white (part above 0) or black (below).
 Colour toned(const Colour& colour, float part) {
@@ -80,15 +80,15 @@ void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
 void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
   const auto headline = [&](const std::string& words, const std::string& below, const Colour& colour) {
     texts.push_back({.words = words, .y = 0.42f, .size = 0.17f, .colour = colour});
-    if (!below.empty()) texts.push_back({.words = below, .y = 0.545f, .size = 0.045f, .colour = white});
+    if (!below.empty()) texts.push_back({.words = below, .y = 0.545f, .size = 0.045f, .colour = bright});
   };
   const std::string score = std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right);
   if (sight.phase == Phase::countdown) add_countdown(sight, texts);
   else if (sight.phase == Phase::playing && sight.scorer) headline("GOAL", score, toned(colour_of(*sight.scorer), 0.15f));
-  else if (sight.phase == Phase::paused) headline("PAUSED", "", white);
-  else if (sight.phase == Phase::waiting) headline("WAITING", "for the other player", white);
-  else if (sight.phase == Phase::away) headline("OPPONENT LEFT", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s - 0.3))) + " s to come back", white);
-  else if (sight.phase == Phase::lost) headline("CONNECTION LOST", "", white);
+  else if (sight.phase == Phase::paused) headline("PAUSED", "", bright);
+  else if (sight.phase == Phase::waiting) headline("WAITING", "for the other player", bright);
+  else if (sight.phase == Phase::away) headline("OPPONENT LEFT", "the other player has " + std::to_string(static_cast<int>(std::ceil(sight.remaining_s - 0.3))) + " s to come back", bright);
+  else if (sight.phase == Phase::lost) headline("CONNECTION LOST", "", bright);
   else if (sight.phase == Phase::over && sight.winner) headline(victory(name_of(sight, *sight.winner)), score, toned(colour_of(*sight.winner), 0.15f));
 }
 
@@ -120,7 +120,7 @@ void add_names(const MatchSight& sight, const ViewChoice& choice, std::vector<Te
   const bool has_corner = !choice.shows_link;
   if (has_corner) texts.push_back({.words = name_of(sight, second), .x = 0.98f, .y = 0.045f, .size = 0.042f, .align = Text::Align::right, .colour = toned(colour_of(second), 0.2f)});
   if (choice.viewpoint != Viewpoint::above) return;
-  texts.push_back({.words = std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right), .y = 0.05f, .size = 0.06f, .colour = white});
+  texts.push_back({.words = std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right), .y = 0.05f, .size = 0.06f, .colour = bright});
 }
 
 }  // namespace
@@ -176,11 +176,11 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
   picture.dimming = is_stopped ? 0.55f : sight.phase == Phase::countdown ? 0.25f : 0.0f;
   add_names(sight, choice, picture.texts);
   add_headlines(sight, picture.texts);
-  if (!sight.notice.empty()) picture.texts.push_back({.words = sight.notice, .y = 0.955f, .size = 0.032f, .colour = white});
+  if (!sight.notice.empty()) picture.texts.push_back({.words = sight.notice, .y = 0.955f, .size = 0.032f, .colour = bright});
   if (choice.shows_link) add_link(sight, choice, picture.texts);
   float y = 0.12f;
   for (const std::string& line : overlay.lines) {
-    picture.texts.push_back({.words = line, .x = 0.02f, .y = y, .size = 0.028f, .align = Text::Align::left, .colour = white});
+    picture.texts.push_back({.words = line, .x = 0.02f, .y = y, .size = 0.028f, .align = Text::Align::left, .colour = bright});
     y += 0.042f;
   }
   if (choice.viewpoint == Viewpoint::above)

@@ -1,7 +1,6 @@
 // Reads what it can of the settings' file and says what it cannot.
 #include "game/view/settings.h"
 
-#include <GLFW/glfw3.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -10,6 +9,8 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+
+#include "game/view/glfw.h"
 
 namespace rink::view {
 namespace {

@@ -2,10 +2,10 @@
 #include "game/view/window.h"
 
 #include <epoxy/gl.h>
-// epoxy first: GLFW then leaves OpenGL's own header out.
-#include <GLFW/glfw3.h>
 
 #include <utility>
+
+#include "game/view/glfw.h"
 
 namespace rink::view {
 namespace {

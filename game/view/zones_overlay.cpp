@@ -11,12 +11,7 @@ namespace {
 using game::ZonesSeen;
 
 constexpr std::array<Colour, 6> colours{{{0.80f, 0.30f, 0.20f}, {0.15f, 0.45f, 0.85f}, {0.20f, 0.60f, 0.25f}, {0.70f, 0.55f, 0.05f}, {0.55f, 0.25f, 0.70f}, {0.10f, 0.60f, 0.60f}}};
-constexpr Colour ghost{0.95f, 0.50f, 0.02f, 1.0f}, told{0.05f, 0.62f, 0.20f, 1.0f}, own{0.80f, 0.05f, 0.75f, 1.0f}, clear{0.0f, 0.0f, 0.0f, 0.0f};
-
-Colour faded(Colour colour, float alpha) {
-  colour.alpha = alpha;
-  return colour;
-}
+constexpr Colour ghost{0.95f, 0.50f, 0.02f, 1.0f}, told{0.05f, 0.62f, 0.20f, 1.0f}, own{0.80f, 0.05f, 0.75f, 1.0f};
 
 /// What of the field lies in the halo of a zone.
 OverlayRectangle halo_of(const ZonesSeen::Zone& zone, double halo, const physics::Field& field) {

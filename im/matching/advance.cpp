@@ -11,7 +11,7 @@ namespace rink::im {
 namespace {
 
 /// How many motions ahead memory is asked for.
-constexpr std::size_t ahead = 32;
+constexpr std::size_t motions_ahead = 32;
 
 inline void take(float& greatest, float value) { greatest = std::max(greatest, value); }
 
@@ -26,8 +26,8 @@ void advance_one(const Advancing& boxes, std::size_t i, bool asks_exact, Advance
 }
 
 inline void ask_ahead(const Advancing& boxes, std::size_t i, std::size_t end, std::size_t width) {
-  if (i + ahead + width > end) return;
-  for (std::size_t k = 0; k < width; ++k) boxes.regions.prefetch(boxes.ids[i + ahead + k]);
+  if (i + motions_ahead + width > end) return;
+  for (std::size_t k = 0; k < width; ++k) boxes.regions.prefetch(boxes.ids[i + motions_ahead + k]);
 }
 
 Advanced advance_scalar(const Advancing& boxes, std::size_t first, std::size_t end, bool asks_exact) {

@@ -6,12 +6,12 @@
 namespace rink::im {
 namespace {
 
-struct Exact {
+struct ExactRegions {
   std::span<const Region> updates, subscriptions;
 };
 
 Verdict judge(const void* context, std::uint32_t subscription, std::uint32_t update) {
-  const auto& exact = *static_cast<const Exact*>(context);
+  const auto& exact = *static_cast<const ExactRegions*>(context);
   return overlap(exact.updates[update], exact.subscriptions[subscription]) ? Verdict::match : Verdict::no;
 }
 
@@ -39,7 +39,7 @@ void BatchMatcher::match(std::span<const Region> updates, std::span<const Region
   join_.share_with(worker);
   run_both(worker, [&] { stage(updates, Subject::update_region, updates_, rejections_); }, [&] { stage(subscriptions, Subject::subscription_region, subscriptions_, other_rejections_); });
   rejections_.insert(rejections_.end(), other_rejections_.begin(), other_rejections_.end());
-  const Exact exact{updates, subscriptions};
+  const ExactRegions exact{updates, subscriptions};
   join_.add_overlaps(updates_, subscriptions_, {!(updates_.is_exact() && subscriptions_.is_exact()), judge, &exact});
 }
 

@@ -11,7 +11,7 @@ namespace rink::im {
 namespace {
 
 /// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too many rows. Columns are cheap: the cells of a row lie one after the other.
-constexpr CellShape shape{32.0, 6.0, 2.0};
+constexpr CellShape box_cell_shape{32.0, 6.0, 2.0};
 
 /// Boxes are followed until they may be this part of a column from their cells: farther, questions look at so many more that binning anew is cheaper.
 constexpr float drift_max = 0.25f;
@@ -77,7 +77,7 @@ void BoxIndex::sort() {
 }
 
 void BoxIndex::build() {
-  levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_, shape);
+  levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_, box_cell_shape);
   count_cells();
   sort();
   follow_count_ = 0;

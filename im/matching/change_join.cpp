@@ -15,7 +15,7 @@ constexpr std::size_t unordered_subscriber_max = 4096;
 /// How many motions ahead memory is asked for.
 constexpr std::size_t stage_ahead = 16;
 
-struct Exact {
+struct ExactMotions {
   const RegionHistory &askers, &asked;
 };
 
@@ -29,7 +29,7 @@ Verdict verdict(bool was, bool is) { return was == is ? Verdict::no : is ? Verdi
 
 template <Question question>
 Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t asked) {
-  const auto& exact = *static_cast<const Exact*>(context);
+  const auto& exact = *static_cast<const ExactMotions*>(context);
   const Motion &a = exact.askers[asker], &b = exact.asked[asked];
   return verdict(is_met<question>(a.before, b.before), is_met<question>(a.now, b.now));
 }
@@ -38,7 +38,7 @@ Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t aske
 template <Question question, Region Motion::*place>
 Verdict judge_standing(const void* context, std::uint32_t asker, std::uint32_t asked) {
   if (asked == LiveIndex::nobody) return Verdict::no;
-  const auto& exact = *static_cast<const Exact*>(context);
+  const auto& exact = *static_cast<const ExactMotions*>(context);
   const Motion& a = exact.askers[asker];
   const Region& b = exact.asked[asked].*place;
   return verdict(is_met<question>(a.before, b), is_met<question>(a.now, b));
@@ -135,7 +135,7 @@ void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
 
 template <class Askers>
 void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& entities, const Side& subscribers) {
-  const Exact exact{subscribers.regions, entities.regions};
+  const ExactMotions exact{subscribers.regions, entities.regions};
   join_.clear();
   const Question question = of_subscribers(shape_);
   join_.add_changes(asked, askers, {question != Question::rectangles || !(asked.is_exact() && askers.is_exact()), moved_judge(question), &exact}, question);
@@ -157,7 +157,7 @@ void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_ent
   LineIndex& lines = asked.standing.lines;
   if (!asked.standing.is_live || lines.is_outgrown()) lines.build(world_, asked.regions, place);
   asked.standing.is_live = true;
-  const Exact exact{askers.regions, asked.regions};
+  const ExactMotions exact{askers.regions, asked.regions};
   const TieJudge judge{true, judge_standing<Question::rectangles, place>, &exact};
   Worker* const worker = for_movers(worker_, askers.moved.size());
   const std::size_t count = probes_.size(), middle = worker != nullptr ? count / 2 : count;
@@ -176,7 +176,7 @@ void ChangeJoin::ask_live(const Side& askers, const Side& asked, Question questi
   LiveIndex& live = asked.standing.live;
   if (!asked.standing.is_live || live.is_outgrown()) live.build(world_, asked.regions, place);
   asked.standing.is_live = true;
-  const Exact exact{askers.regions, asked.regions};
+  const ExactMotions exact{askers.regions, asked.regions};
   join_.share_with(for_movers(worker_, askers.moved.size()));
   join_.clear();
   join_.add_changes(live, probes_, {true, standing_judge<place>(question), &exact}, question);

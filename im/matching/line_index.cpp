@@ -12,11 +12,11 @@ namespace {
 
 /// Half of the lanes are in use, so that few cells overflow. Two cells to a box at most, for a crowd in 1 % of the world: with half a cell to a box they hold 180 there, and a mover
 /// reads 130 lines.
-constexpr CellShape shape{4.0, 1.0, 2.0};
+constexpr CellShape line_cell_shape{4.0, 1.0, 2.0};
 /// With more columns or rows, edges would not fit into 32 bits; the last ones are wide then.
 constexpr std::int32_t last_max = (1 << 21) - 1;
 /// How many movers are in flight, and lines at most before they are read.
-constexpr std::size_t block_size = 32, visit_max = 512;
+constexpr std::size_t in_flight_max = 32, visit_max = 512;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void LineIndex::build(const Region& world, const RegionHistory& regions, Region 
     staged_.push_back(box);
     staged_ids_.push_back(id);
   }
-  levels_.choose(sizes_, staged_.span(), world, shape);
+  levels_.choose(sizes_, staged_.span(), world, line_cell_shape);
   for (const FloatBox& box : staged_.span()) levels_.of(sizes_, box).widen(box);
   codings_.clear();
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -147,10 +147,10 @@ void LineIndex::move(std::uint32_t id, std::uint32_t from, const Place& to) {
 
 void LineIndex::put(const ProbeList& moved) {
   constexpr std::uint32_t nowhere_yet = 0xFFFFFFFF;
-  std::array<std::uint32_t, block_size> from;
-  std::array<Place, block_size> to;
-  for (std::size_t first = 0; first < moved.size(); first += block_size) {
-    const std::size_t count = std::min(block_size, moved.size() - first);
+  std::array<std::uint32_t, in_flight_max> from;
+  std::array<Place, in_flight_max> to;
+  for (std::size_t first = 0; first < moved.size(); first += in_flight_max) {
+    const std::size_t count = std::min(in_flight_max, moved.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       const Probe& probe = moved.probe(first + i);
       const std::size_t level = level_of(probe.now);
@@ -267,8 +267,8 @@ void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const Regio
 
 template <class Compare>
 void LineIndex::find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
-  for (std::size_t first = begin; first < end; first += block_size) {
-    for (std::size_t i = first; i < std::min(first + block_size, end); ++i) {
+  for (std::size_t first = begin; first < end; first += in_flight_max) {
+    for (std::size_t i = first; i < std::min(first + in_flight_max, end); ++i) {
       visit(askers.probe(i), static_cast<std::uint32_t>(i), answers.visits);
       if (answers.visits.size() >= visit_max) read<Compare>(askers, judge, regions, answers);
     }

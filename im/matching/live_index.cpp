@@ -10,10 +10,10 @@ namespace rink::im {
 namespace {
 
 /// Half of the lanes are in use, so that few cells overflow.
-constexpr CellShape shape{4.0, 1.0, 0.5};
+constexpr CellShape live_cell_shape{4.0, 1.0, 0.5};
 
 /// How many movers ahead memory is asked for.
-constexpr std::size_t ahead = 8;
+constexpr std::size_t movers_ahead = 8;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void LiveIndex::build(const Region& world, const RegionHistory& regions, Region 
     staged_.push_back(box);
     staged_ids_.push_back(id);
   }
-  levels_.choose(sizes_, staged_.span(), world, shape);
+  levels_.choose(sizes_, staged_.span(), world, live_cell_shape);
   for (const FloatBox& box : staged_.span()) levels_.of(sizes_, box).widen(box);
   place_of_.fill(regions.size(), none);
   blocks_.clear();
@@ -144,9 +144,9 @@ void LiveIndex::put(std::uint32_t id, const Region& region) {
 
 void LiveIndex::put(std::span<const std::uint32_t> ids, const RegionHistory& regions) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (i + 2 * ahead < ids.size() && ids[i + 2 * ahead] < place_of_.size()) __builtin_prefetch(&place_of_[ids[i + 2 * ahead]]);
-    if (i + ahead < ids.size()) {
-      const std::uint32_t next = ids[i + ahead];
+    if (i + 2 * movers_ahead < ids.size() && ids[i + 2 * movers_ahead] < place_of_.size()) __builtin_prefetch(&place_of_[ids[i + 2 * movers_ahead]]);
+    if (i + movers_ahead < ids.size()) {
+      const std::uint32_t next = ids[i + movers_ahead];
       regions.prefetch(next);
       if (holds(next))
         for (std::uint32_t part = 0; part < sizeof(Block); part += 64) __builtin_prefetch(reinterpret_cast<const char*>(&blocks_[place_of_[next] / lanes]) + part, 1);

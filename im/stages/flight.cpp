@@ -12,30 +12,30 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Warped times, both included; empty if `first > last`.
-struct Stretch {
+struct WarpedSpan {
   double first = -infinite, last = infinite;
   bool is_empty() const { return first > last; }
 };
-constexpr Stretch never{infinite, -infinite};
+constexpr WarpedSpan never{infinite, -infinite};
 
-Stretch both(const Stretch& a, const Stretch& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
+WarpedSpan both(const WarpedSpan& a, const WarpedSpan& b) { return {std::max(a.first, b.first), std::min(a.last, b.last)}; }
 /// The hull, which is the union of two parts of a convex set.
-Stretch either(const Stretch& a, const Stretch& b) {
+WarpedSpan either(const WarpedSpan& a, const WarpedSpan& b) {
   if (a.is_empty()) return b;
-  return b.is_empty() ? a : Stretch{std::min(a.first, b.first), std::max(a.last, b.last)};
+  return b.is_empty() ? a : WarpedSpan{std::min(a.first, b.first), std::max(a.last, b.last)};
 }
 
 /// |offset + speed s| <= half.
-Stretch within(double offset, double speed, double half) {
-  if (speed == 0.0) return std::abs(offset) <= half ? Stretch{} : never;
+WarpedSpan within(double offset, double speed, double half) {
+  if (speed == 0.0) return std::abs(offset) <= half ? WarpedSpan{} : never;
   const double one = (-half - offset) / speed, other = (half - offset) / speed;
   return {std::min(one, other), std::max(one, other)};
 }
 
 /// |(x, y) + (u, v) s| <= radius. The discriminant is factored as in the design's time of impact, for b^2 - a c cancels, and so does one of the two sums of roots.
-Stretch within_disc(double x, double y, double u, double v, double radius) {
+WarpedSpan within_disc(double x, double y, double u, double v, double radius) {
   const double square = u * u + v * v, gap = x * x + y * y - radius * radius, closing = -(x * u + y * v), miss = std::abs(x * v - y * u), reach = radius * std::sqrt(square);
-  if (square == 0.0) return gap <= 0.0 ? Stretch{} : never;
+  if (square == 0.0) return gap <= 0.0 ? WarpedSpan{} : never;
   if (miss > reach) return never;
   const double root = std::sqrt((reach - miss) * (reach + miss));
   if (closing >= 0.0) {
@@ -53,8 +53,8 @@ struct Approach {
     const Flight from = at_time(b, start, drag), to = at_time(a, start, drag);
     x = to.x - from.x, y = to.y - from.y, u = to.velocity_x - from.velocity_x, v = to.velocity_y - from.velocity_y;
   }
-  TimeSpan time_of(const Stretch& stretch, double drag) const {
-    const Stretch ahead = both(stretch, {0.0, infinite});
+  TimeSpan time_of(const WarpedSpan& stretch, double drag) const {
+    const WarpedSpan ahead = both(stretch, {0.0, infinite});
     const double end = drag > 0.0 ? 1.0 / drag : infinite;  // where motion comes to rest
     if (ahead.is_empty() || ahead.first >= end) return {infinite, -infinite};
     return {unwarped(ahead.first, drag), ahead.last >= end ? infinite : unwarped(ahead.last, drag)};
@@ -79,7 +79,7 @@ TimeSpan touching_boxes(const Flight& a, const HalfExtent& a_half, const Flight&
 /// The disc grown by the box: two boxes that cross, and a disc at each corner.
 TimeSpan touching_disc(const Flight& a, const HalfExtent& a_half, const Flight& b, double radius, double drag) {
   const Approach way(a, b, drag);
-  Stretch stretch = either(both(within(way.x, way.u, a_half.x + radius), within(way.y, way.v, a_half.y)), both(within(way.x, way.u, a_half.x), within(way.y, way.v, a_half.y + radius)));
+  WarpedSpan stretch = either(both(within(way.x, way.u, a_half.x + radius), within(way.y, way.v, a_half.y)), both(within(way.x, way.u, a_half.x), within(way.y, way.v, a_half.y + radius)));
   for (const double x : {-a_half.x, a_half.x})
     for (const double y : {-a_half.y, a_half.y}) stretch = either(stretch, within_disc(way.x - x, way.y - y, way.u, way.v, radius));
   return way.time_of(stretch, drag);

@@ -1,14 +1,12 @@
 // The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody flaps at an edge.
 #include <algorithm>
-#include <limits>
 
+#include "im/cells.h"
 #include "im/composition/reviewed_parts.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
 
 Region grown(const Region& region, double margin) {
   const auto bounded = [](double coordinate) { return std::clamp(coordinate, -largest, largest); };

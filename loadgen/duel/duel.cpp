@@ -4,14 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loadgen/virtual_parts.h"
+
 namespace rink::loadgen {
-namespace {
-
-constexpr const char* server_name = "server";
-
-std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
-
-}  // namespace
 
 std::int64_t JitteredDelay::arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) {
   const double late_s = jitter_s_ == 0.0 ? 0.0 : jitter_s_ * std::min(5.0, -std::log1p(-random_.uniform()));

@@ -13,11 +13,6 @@
 namespace rink::loadgen {
 namespace {
 
-Cell without_seed(Cell cell) {
-  cell.seed = 0;
-  return cell;
-}
-
 Cell without_clients(Cell cell) {
   cell.seed = 0;
   cell.clients = 0;

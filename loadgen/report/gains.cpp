@@ -3,13 +3,12 @@
 
 #include <algorithm>
 
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
-std::optional<double> displayed_error(const RunRecord& run) { return run.truth.displayed_error_mm.rms; }
 
 /// Whether the two play the same game for the same crowd.
 bool is_comparable(const Cell& a, const Cell& b) {
@@ -78,7 +77,7 @@ std::string headline_of(const Findings& findings) {
   std::string text = "At " + std::to_string(most_clients) + " clients " + best->line->name + " sends " + plain_number(best->bytes->value) + " times fewer payload bytes than " +
                      line_name(findings.lines, base->cell);
   if (best->bytes->interval) text += " (95 % interval " + plain_number(best->bytes->interval->low) + " to " + plain_number(best->bytes->interval->high) + ")";
-  const auto own_error = best->group->mean(displayed_error), base_error = base->mean(displayed_error);
+  const auto own_error = best->group->mean(displayed_rms), base_error = base->mean(displayed_rms);
   if (own_error && base_error) text += ", with a displayed error of " + plain_number(own_error->mean) + " mm RMS against " + plain_number(base_error->mean) + " mm";
   return text + (best->bytes->difference() == Difference::insignificant ? "; no significant difference." : ".");
 }

@@ -4,16 +4,13 @@
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/gains.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
-std::optional<double> displayed_rms(const RunRecord& run) { return run.truth.displayed_error_mm.rms; }
-std::optional<double> displayed_p99(const RunRecord& run) { return run.truth.displayed_error_mm.p99; }
 std::optional<double> matched_rms(const RunRecord& run) { return run.truth.position_error_mm.rms; }
-std::optional<double> delivered_recall(const RunRecord& run) { return run.truth.delivered_recall; }
 
 void add_scatter(Exhibit& exhibit, const Findings& findings) {
   LinePlot plot{"Payload against displayed error", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};

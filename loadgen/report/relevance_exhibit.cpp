@@ -4,6 +4,7 @@
 
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
@@ -45,10 +46,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
-std::optional<double> filter_precision(const RunRecord& run) { return run.truth.filter_precision; }
-std::optional<double> filter_recall(const RunRecord& run) { return run.truth.filter_recall; }
 std::optional<double> delivered_precision(const RunRecord& run) { return run.truth.delivered_precision; }
-std::optional<double> delivered_recall(const RunRecord& run) { return run.truth.delivered_recall; }
 
 struct Quality {
   const char* name;

@@ -8,28 +8,28 @@ namespace {
 
 constexpr std::size_t groups_max = 3;
 
-struct Shown {
+struct BoxedFigure {
   const char* name;
   const char* title;
   const char* unit;
   FigureOf of;
 };
 
-constexpr Shown figures_shown[] = {
+constexpr BoxedFigure boxed_figures[] = {
     {"replications-payload", "Payload to each client", "bytes per second and client", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
     {"replications-displayed-error", "Displayed error, RMS", "mm", [](const RunRecord& run) { return run.truth.displayed_error_mm.rms; }},
     {"replications-update-age", "Update age, 99th percentile", "ms", [](const RunRecord& run) { return run.update_age_ms.p99; }},
 };
 
-bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
-  BoxPlot plot{shown.title, shown.unit, "One row per filter and client count; every dot is a run.", true, {}};
-  PlotTable table{shown.name, std::string(shown.title) + " of every valid run", cell_columns()};
-  table.columns.insert(table.columns.end(), {"seed", shown.unit});
+bool add_box_plot(Exhibit& exhibit, const Findings& findings, const BoxedFigure& figure) {
+  BoxPlot plot{figure.title, figure.unit, "One row per filter and client count; every dot is a run.", true, {}};
+  PlotTable table{figure.name, std::string(figure.title) + " of every valid run", cell_columns()};
+  table.columns.insert(table.columns.end(), {"seed", figure.unit});
   for (const std::uint32_t clients : thinned(client_counts(findings.lines), groups_max)) {
     BoxPlot::Group drawn{std::to_string(clients) + (clients == 1 ? " client" : " clients"), {}};
     for (const CellLine& line : plotted_lines(findings)) {
       for (const CellGroup& group : line.groups) {
-        const auto values = group.cell.clients == clients ? group.values(shown.of) : std::vector<double>{};
+        const auto values = group.cell.clients == clients ? group.values(figure.of) : std::vector<double>{};
         if (values.empty()) continue;
         drawn.rows.push_back({line.name, line.style, values});
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -54,8 +54,8 @@ Exhibit replication_exhibit(const Findings& findings) {
       "<p class=\"faint\">Every dot is a run. Around five or more stands Tukey's box (1977): the middle half between the hinges, the bar at the median, whiskers to the outermost runs "
       "within 1.5 hinge spreads. Boxes that overlap much are no ground to prefer either.</p>\n<div class=\"plots\">\n"};
   std::string absences;
-  for (const Shown& shown : figures_shown) {
-    if (!add_plot(exhibit, findings, shown)) absences += std::string(absences.empty() ? "" : ", ") + shown.title;
+  for (const BoxedFigure& figure : boxed_figures) {
+    if (!add_box_plot(exhibit, findings, figure)) absences += std::string(absences.empty() ? "" : ", ") + figure.title;
   }
   exhibit.html += "</div>\n";
   if (!absences.empty()) exhibit.add_absence("Not measured in any cell's every run, so without a plot: " + absences + ".");

@@ -4,17 +4,13 @@
 
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/share_range.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
-std::optional<double> displayed_rms(const RunRecord& run) { return run.truth.displayed_error_mm.rms; }
-std::optional<double> displayed_p99(const RunRecord& run) { return run.truth.displayed_error_mm.p99; }
-std::optional<double> filter_recall(const RunRecord& run) { return run.truth.filter_recall; }
-std::optional<double> delivered_recall(const RunRecord& run) { return run.truth.delivered_recall; }
 
 /// An expression without its numbers, and the numbers: "aura with tiers(at)" and "0.3 0.6".
 struct Shape {

@@ -5,6 +5,7 @@
 #include "loadgen/parameter.h"
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/share_range.h"
 #include "loadgen/report/text.h"
 
@@ -13,13 +14,10 @@ namespace {
 
 constexpr std::size_t curves_max = 12;
 
-std::optional<double> precision(const RunRecord& run) { return run.truth.filter_precision; }
-std::optional<double> recall(const RunRecord& run) { return run.truth.filter_recall; }
-std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
 std::optional<double> churn(const RunRecord& run) { return run.truth.churn_per_client_per_s; }
 std::optional<double> filter_cost(const RunRecord& run) { return run.filter_us_per_tick; }
 
-bool is_judged(const CellGroup& group) { return group.mean(precision) && group.mean(recall) && group.mean(payload); }
+bool is_judged(const CellGroup& group) { return group.mean(filter_precision) && group.mean(filter_recall) && group.mean(payload); }
 
 Cell key_of(Cell cell, const ParameterKind& kind) {
   kind.set(cell.parameters, kind.of(Parameters{}));
@@ -53,7 +51,7 @@ struct Quantity {
   FigureOf of;
   bool is_share;  ///< from 0 to 1
 };
-constexpr Quantity precision_of_decisions{"precision of the filter's decisions", precision, true}, recall_of_decisions{"recall of the filter's decisions", recall, true},
+constexpr Quantity precision_of_decisions{"precision of the filter's decisions", filter_precision, true}, recall_of_decisions{"recall of the filter's decisions", filter_recall, true},
     bytes{"payload, bytes per second and client", payload, false};
 
 std::pair<double, double> range_of(const std::vector<CellLine>& curves, FigureOf figure) {
@@ -92,7 +90,7 @@ PlotTable table_of(const std::vector<CellLine>& curves, const std::string& name,
     for (const CellGroup& group : curve.groups) {
       auto row = cell_values(curve, group);
       if (kind) row.push_back(kind->has(group.cell.scheme) ? exact_number(kind->of(group.cell.parameters)) : "");
-      for (const FigureOf figure : {precision, recall, payload, churn, filter_cost}) append_interval(row, group.mean(figure));
+      for (const FigureOf figure : {filter_precision, filter_recall, payload, churn, filter_cost}) append_interval(row, group.mean(figure));
       table.rows.push_back(std::move(row));
     }
   return table;
@@ -110,7 +108,7 @@ std::string html_of(const std::vector<CellLine>& curves, const ParameterKind& ki
         return "<td>" + plain_number(mean ? std::optional(scale * mean->mean) : std::nullopt, digits) + "</td>";
       };
       html += std::string("<tr") + (i == 0 ? " class=\"first\"" : "") + "><td class=\"text\">" + escaped(curve.name) + "</td><td>" +
-              (kind.has(group.cell.scheme) ? value_text(kind, group.cell) : "\xE2\x80\x93") + "</td>" + shown(precision, 1.0, 3) + shown(recall, 1.0, 4) + shown(payload, 1e-3, 3) +
+              (kind.has(group.cell.scheme) ? value_text(kind, group.cell) : "\xE2\x80\x93") + "</td>" + shown(filter_precision, 1.0, 3) + shown(filter_recall, 1.0, 4) + shown(payload, 1e-3, 3) +
               shown(churn, 1.0, 3) + "</tr>\n";
     }
   return html + "</tbody></table></div>\n";

@@ -3,12 +3,12 @@
 
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> payload(const RunRecord& run) { return run.down_bytes_per_client_per_s; }
 std::optional<double> on_the_wire(const RunRecord& run) { return run.wire_bytes_per_client_per_s; }
 
 /// Who sends most and least at the largest client count, in a sentence.

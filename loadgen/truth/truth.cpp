@@ -34,9 +34,9 @@ struct Look {
   std::size_t index;
 };
 
-class Judgement {
+class ReplayJudgement {
  public:
-  Judgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) : server_(server), bots_(bots), area_(area), replay_(server, area) {
+  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) : server_(server), bots_(bots), area_(area), replay_(server, area) {
     for (const BotsEvidence::Bot& bot : bots.bots) add_player(bot);
     plan_looks();
   }
@@ -193,7 +193,7 @@ std::optional<double> ratio(double part, double whole) {
   return part / whole;
 }
 
-Percentiles Judgement::late_entries() {
+Percentiles ReplayJudgement::late_entries() {
   std::vector<double> late_s;
   for (Player& player : players_) {
     player.stays.end();
@@ -202,7 +202,7 @@ Percentiles Judgement::late_entries() {
   return percentiles_ms(std::move(late_s));
 }
 
-TruthFigures Judgement::sums() {
+TruthFigures ReplayJudgement::sums() {
   TruthFigures figures;
   figures.relevance = text_of(area_);
   figures.filter_precision = filter_.precision();
@@ -229,7 +229,7 @@ TruthFigures Judgement::sums() {
 
 }  // namespace
 
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return Judgement(server, bots, area).figures(); }
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return ReplayJudgement(server, bots, area).figures(); }
 
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
   const physics::Field& field = scene.world.field;

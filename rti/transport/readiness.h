@@ -28,6 +28,9 @@ class File {
   int number_ = -1;
 };
 
+/// Transports number their files so: from here on are listening sockets, those below are connections.
+inline constexpr std::uint64_t listener_mark = 1ull << 32;
+
 /// Watches files by a number of the caller's choice. Level-triggered: what was not read or written to the end is told again, so a file is watched once and
 /// not touched again between two reads, which halves the system calls of a reactor that arms each read anew.
 class Readiness {

@@ -11,7 +11,6 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::uint64_t listener_mark = 1ull << 32;
 constexpr std::uint32_t polls_per_look = 4;  ///< between two looks at the sockets while there is something in the rings
 constexpr const char* impossible = "its positions in shared memory are impossible";
 

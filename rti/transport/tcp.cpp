@@ -20,7 +20,6 @@ constexpr std::size_t events_per_poll = 4096;   ///< connections opened, closed 
 constexpr std::size_t accepted_per_event = 64;
 /// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows to megabytes for one who doesn't read, where nobody can put newer state in their place.
 constexpr int unsent_max = 256 * 1024;
-constexpr std::uint64_t listener_mark = 1ull << 32;  ///< numbers from here on are listening sockets, those below are connections
 constexpr std::uint64_t pause_mark = ~0ull;
 constexpr std::size_t counters_kept = 1024;  ///< of closed connections
 

@@ -13,7 +13,7 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::size_t segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
+constexpr std::size_t tcp_segment_size = 1448;  ///< payload of an Ethernet frame with TCP time stamps
 constexpr std::size_t part_max = 256;       ///< of one write; more are taken in turns
 
 }  // namespace
@@ -71,7 +71,7 @@ void TcpTransport::Core::send(ConnectionId connection, std::span<const Bytes> pa
   for (const Bytes part : parts) size += part.size();
   if (size == 0) return;
   ++peer->counters.writes;
-  peer->counters.segments_sent += (size + segment_size - 1) / segment_size;
+  peer->counters.segments_sent += (size + tcp_segment_size - 1) / tcp_segment_size;
   bool is_broken = false;
   std::size_t taken = 0;
   if (peer->is_open && peer->queue.size() == peer->queue_from) taken = write(*peer, parts, is_broken);

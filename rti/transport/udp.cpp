@@ -17,10 +17,10 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::uint32_t magic = 0x47444b52;  ///< "RKDG": no frame is that long
+constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
 constexpr std::uint64_t server_mark = 1ull << 32, timer_mark = server_mark + 1;
 constexpr int tries_max = 30;                ///< ten a second
-constexpr std::size_t events_per_poll = 1024;
+constexpr std::size_t datagram_events_per_poll = 1024;
 
 std::uint64_t secret() {
   std::uint64_t key = 0;
@@ -81,7 +81,7 @@ ConnectionId UdpTransport::Core::connect(const std::string& address, std::uint16
   const ConnectionId connection = tcp_.connect(address, port);
   add(connection).role = Way::Role::client;
   tallies_[connection].stream_sent = magic_size;
-  const Bytes request = std::as_bytes(std::span(&magic, 1));
+  const Bytes request = std::as_bytes(std::span(&datagram_magic, 1));
   tcp_.send(connection, std::span(&request, 1));
   return connection;
 }
@@ -133,7 +133,7 @@ Bytes UdpTransport::Core::take_head(ConnectionId connection, Bytes bytes) {
   way.head_size += taken;
   bytes = bytes.subspan(taken);
   const std::size_t comparable = std::min(way.head_size, magic_size);
-  if (std::memcmp(way.head.data(), &magic, comparable) != 0) {
+  if (std::memcmp(way.head.data(), &datagram_magic, comparable) != 0) {
     const std::array<std::byte, greeting_size> head = way.head;
     const std::size_t size = way.head_size;
     way.role = Way::Role::none;
@@ -156,7 +156,7 @@ void UdpTransport::Core::greet(ConnectionId connection, Way& way) {
   by_key_[way.up_key] = connection;
   std::array<std::byte, greeting_size> greeting;
   std::byte* at = greeting.data();
-  put(at, magic);
+  put(at, datagram_magic);
   put(at, server_port_);
   put(at, way.up_key);
   put(at, way.down_key);
@@ -267,7 +267,7 @@ void UdpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportLi
 void UdpTransport::Core::take_what_came() {
   tcp_.poll({}, *this);
   readiness_.ask({}, {});
-  for (std::size_t taken = 0; taken < events_per_poll; ++taken) {
+  for (std::size_t taken = 0; taken < datagram_events_per_poll; ++taken) {
     const auto event = readiness_.next();
     if (!event) return;
     if (event->number == timer_mark) {

@@ -44,7 +44,7 @@ void change(std::vector<std::byte>& input, std::mt19937_64& random) {
   }
 }
 
-class Corpus : public testing::TestWithParam<Harness> {};
+class Corpus : public ::testing::TestWithParam<Harness> {};
 
 TEST_P(Corpus, IsTakenWithoutHarm) {
   const auto corpus = corpus_of(GetParam().name);
@@ -66,7 +66,7 @@ TEST_P(Corpus, IsTakenWithoutHarmAlsoWhenChangedAtRandom) {
   EXPECT_GT(changed, 0u) << "seed " << seed;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::ValuesIn(all_harnesses()), [](const auto& harness) { return std::string(harness.param.name); });
+INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(all_harnesses()), [](const auto& harness) { return std::string(harness.param.name); });
 
 }  // namespace
 }  // namespace rink::fuzz

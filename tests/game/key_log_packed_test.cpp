@@ -7,6 +7,7 @@
 
 #include "game/model/random_stream.h"
 #include "game/model/time_grid.h"
+#include "rink_scenes.h"
 
 namespace rink::game {
 namespace {
@@ -24,13 +25,8 @@ KeyLog read(const std::string& bytes) {
   return read_key_log(stream, "match.keys");
 }
 
-std::string refusal(const std::string& bytes) {
-  try {
-    read(bytes);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+std::string packed_refusal(const std::string& bytes) {
+  return refusal_of([&] { read(bytes); });
 }
 
 KeyLog small_log() {
@@ -72,9 +68,9 @@ TEST(PackedKeyLog, TakesThreeToFourBytesForAKeyOfAMatch) {
 TEST(PackedKeyLog, ThatIsCutAnywhereIsRefused) {
   const std::string bytes = bytes_of(small_log());
   ASSERT_EQ(read(bytes), small_log());
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(refusal(bytes.substr(0, size)), "(accepted)") << size;
-  EXPECT_THAT(refusal(bytes.substr(0, bytes.size() - 1)), HasSubstr("match.keys: is cut off: "));
-  EXPECT_THAT(refusal(bytes.substr(0, 15)), HasSubstr("match.keys: is cut off after its first line"));
+  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(packed_refusal(bytes.substr(0, size)), "(accepted)") << size;
+  EXPECT_THAT(packed_refusal(bytes.substr(0, bytes.size() - 1)), HasSubstr("match.keys: is cut off: "));
+  EXPECT_THAT(packed_refusal(bytes.substr(0, 15)), HasSubstr("match.keys: is cut off after its first line"));
 }
 
 TEST(PackedKeyLog, ThatIsAlteredAnywhereIsRefused) {
@@ -83,18 +79,18 @@ TEST(PackedKeyLog, ThatIsAlteredAnywhereIsRefused) {
     for (const int bit : {0, 3, 7}) {
       std::string altered = bytes;
       altered[at] = static_cast<char>(altered[at] ^ (1 << bit));
-      EXPECT_NE(refusal(altered), "(accepted)") << at;
+      EXPECT_NE(packed_refusal(altered), "(accepted)") << at;
     }
   std::string altered = bytes;
   altered.back() = static_cast<char>(altered.back() ^ 1);
-  EXPECT_THAT(refusal(altered), HasSubstr("match.keys: was altered: its checksum is another"));
-  EXPECT_THAT(refusal(bytes + '\n'), HasSubstr("match.keys: was altered: it goes on after its end"));
+  EXPECT_THAT(packed_refusal(altered), HasSubstr("match.keys: was altered: its checksum is another"));
+  EXPECT_THAT(packed_refusal(bytes + '\n'), HasSubstr("match.keys: was altered: it goes on after its end"));
 }
 
 TEST(PackedKeyLog, OfAnotherVersionIsRefusedByItsFirstLine) {
   std::string bytes = bytes_of(small_log());
   bytes[10] = '3';
-  EXPECT_THAT(refusal(bytes), HasSubstr("match.keys:1: found \"rink-keys 3\", expected the line \"rink-keys 1\" or \"rink-keys 2\""));
+  EXPECT_THAT(packed_refusal(bytes), HasSubstr("match.keys:1: found \"rink-keys 3\", expected the line \"rink-keys 1\" or \"rink-keys 2\""));
 }
 
 /// A checksum keeps nobody from making up a log: what is read must be checked all the same.
@@ -135,7 +131,7 @@ TEST(KeyLog, WithoutEndIsRefusedAtOnce) {
       EXPECT_THAT(error.what(), HasSubstr("expected the line \"rink-keys 1\""));
     }
   }
-  EXPECT_THAT(refusal("rink-keys 1\nscene " + std::string(100'000, 'x')), HasSubstr("expected a line of at most 65536 bytes"));
+  EXPECT_THAT(packed_refusal("rink-keys 1\nscene " + std::string(100'000, 'x')), HasSubstr("expected a line of at most 65536 bytes"));
 }
 
 }  // namespace

@@ -20,13 +20,8 @@ KeyLog read_text(const std::string& text) {
   return read_key_log(stream, "bad.log");
 }
 
-std::string refusal(const std::string& text) {
-  try {
-    read_text(text);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+std::string log_refusal(const std::string& text) {
+  return refusal_of([&] { read_text(text); });
 }
 
 TEST(KeyLog, ReadsBackBitForBit) {
@@ -55,18 +50,18 @@ TEST(KeyLog, IsTextThatPeopleCanWrite) {
 }
 
 TEST(KeyLog, SaysWhichLineIsWrongAndWhatWasExpected) {
-  EXPECT_THAT(refusal(""), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
-  EXPECT_THAT(refusal("rink-keys 3\n"), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
-  EXPECT_THAT(refusal("rink-keys 1\nseed x\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("whole number")));
-  EXPECT_THAT(refusal("rink-keys 1\nspeed 4\n"), AllOf(HasSubstr("bad.log:2")));
-  EXPECT_THAT(refusal("rink-keys 1\nnan 0 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("from 0 to 1e9 s")));
-  EXPECT_THAT(refusal("rink-keys 1\n-1 0 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("from 0 to 1e9 s")));
-  EXPECT_THAT(refusal("rink-keys 1\n1 -1 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("player")));
-  EXPECT_THAT(refusal("rink-keys 1\n1 0 hold up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("down, up, enter or leave")));
-  EXPECT_THAT(refusal("rink-keys 1\n1 0 down\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("one key")));
-  EXPECT_THAT(refusal("rink-keys 1\n1 0 down north\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("left, right, up or down")));
-  EXPECT_THAT(refusal("rink-keys 1\n1 0 leave now\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("nothing after leave")));
-  EXPECT_THAT(refusal("rink-keys 1\n2 0 down up\n1 0 up up\n"), AllOf(HasSubstr("bad.log:3"), HasSubstr("not before")));
+  EXPECT_THAT(log_refusal(""), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
+  EXPECT_THAT(log_refusal("rink-keys 3\n"), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
+  EXPECT_THAT(log_refusal("rink-keys 1\nseed x\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("whole number")));
+  EXPECT_THAT(log_refusal("rink-keys 1\nspeed 4\n"), AllOf(HasSubstr("bad.log:2")));
+  EXPECT_THAT(log_refusal("rink-keys 1\nnan 0 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("from 0 to 1e9 s")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n-1 0 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("from 0 to 1e9 s")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n1 -1 down up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("player")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n1 0 hold up\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("down, up, enter or leave")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n1 0 down\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("one key")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n1 0 down north\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("left, right, up or down")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n1 0 leave now\n"), AllOf(HasSubstr("bad.log:2"), HasSubstr("nothing after leave")));
+  EXPECT_THAT(log_refusal("rink-keys 1\n2 0 down up\n1 0 up up\n"), AllOf(HasSubstr("bad.log:3"), HasSubstr("not before")));
   EXPECT_THROW(read_key_log(std::filesystem::path("no/such.log")), SceneError);
 }
 
@@ -84,13 +79,13 @@ TEST(KeyLog, ThatWasAlteredOrCutIsRefusedByLine) {
   const std::size_t key = text.find("0.75"), end = text.find("end 2"), scene = text.find("a = 1");
   std::string altered = text;
   altered[key + 2] = '8';
-  EXPECT_THAT(refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
+  EXPECT_THAT(log_refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
   altered = text;
   altered[scene] = 'b';
-  EXPECT_THAT(refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
-  EXPECT_THAT(refusal(text.substr(0, key) + text.substr(end)), AllOf(HasSubstr("bad.log:8"), HasSubstr("missing")));
-  EXPECT_THAT(refusal(text.substr(0, key + 6)), AllOf(HasSubstr("bad.log:8")));
-  EXPECT_THAT(refusal(text + "3 0 down up\n"), AllOf(HasSubstr("bad.log:10"), HasSubstr("nothing after")));
+  EXPECT_THAT(log_refusal(altered), AllOf(HasSubstr("bad.log:9"), HasSubstr("altered")));
+  EXPECT_THAT(log_refusal(text.substr(0, key) + text.substr(end)), AllOf(HasSubstr("bad.log:8"), HasSubstr("missing")));
+  EXPECT_THAT(log_refusal(text.substr(0, key + 6)), AllOf(HasSubstr("bad.log:8")));
+  EXPECT_THAT(log_refusal(text + "3 0 down up\n"), AllOf(HasSubstr("bad.log:10"), HasSubstr("nothing after")));
   EXPECT_FALSE(read_text(text.substr(0, end)).is_sealed);  // whole lines lack: for whoever needs the end to notice
 }
 

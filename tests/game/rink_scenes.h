@@ -13,6 +13,17 @@ inline Scene small_scene(const std::string& more) { return parse_scene("[field]\
 
 inline Scene preset(const std::string& name) { return load_scene(test::source_folder() + "/scenes/" + name + ".toml"); }
 
+/// The words of the SceneError that `act` throws.
+template <class Act>
+std::string refusal_of(const Act& act) {
+  try {
+    act();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
 /// A crowd of `bats` bats, ten times as many pucks and a fifth as many posts.
 inline Scene small_crowd(std::uint32_t bats, std::uint64_t seed) { return with_seed(scaled_to_bats(preset("crowd"), bats), seed); }
 

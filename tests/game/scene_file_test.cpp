@@ -15,12 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_scene(text, "bad.toml");
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return refusal_of([&] { parse_scene(text, "bad.toml"); });
 }
 
 /// The refusal of `more` after three lines of a field of 4 m x 2 m, so that `more` starts on line 4.

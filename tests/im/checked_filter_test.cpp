@@ -12,7 +12,7 @@ namespace {
 using testing::IsEmpty;
 
 constexpr double infinite = std::numeric_limits<double>::infinity(), not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr Region here{1.0, 1.0, 2.0, 2.0}, there{8.0, 8.0, 9.0, 9.0};
+constexpr Region low_corner{1.0, 1.0, 2.0, 2.0}, high_corner{8.0, 8.0, 9.0, 9.0};
 
 class Strangers : public testing::TestWithParam<std::string> {
  protected:
@@ -35,13 +35,13 @@ std::string words(const std::optional<Rejection>& rejection) { return rejection 
 TEST_P(Strangers, AreToldWhatWasWrongAndWhoseItWas) {
   EXPECT_EQ(words(filter_.add_entity(7, {2.0, 1.0, 1.0, 2.0})), "update region 7 is inverted: its low exceeds its high");
   EXPECT_EQ(words(filter_.add_entity(7, {not_a_number, 1.0, 1.0, 2.0})), "update region 7 is not finite: a coordinate is infinite or not a number");
-  EXPECT_EQ(words(filter_.move_entity(7, here)), "update region 7 is not known");
+  EXPECT_EQ(words(filter_.move_entity(7, low_corner)), "update region 7 is not known");
   EXPECT_EQ(words(filter_.remove_entity(7)), "update region 7 is not known");
-  EXPECT_EQ(words(filter_.add_entity(100, here)), "update region 100 has an id that is too large");
-  EXPECT_EQ(words(filter_.add_entity(7, here)), "");
-  EXPECT_EQ(words(filter_.add_entity(7, there)), "update region 7 is there already");
-  EXPECT_EQ(words(filter_.add_subscriber(3, here)), "");
-  EXPECT_EQ(words(filter_.add_subscriber(3, here)), "subscription region 3 is there already");
+  EXPECT_EQ(words(filter_.add_entity(100, low_corner)), "update region 100 has an id that is too large");
+  EXPECT_EQ(words(filter_.add_entity(7, low_corner)), "");
+  EXPECT_EQ(words(filter_.add_entity(7, high_corner)), "update region 7 is there already");
+  EXPECT_EQ(words(filter_.add_subscriber(3, low_corner)), "");
+  EXPECT_EQ(words(filter_.add_subscriber(3, low_corner)), "subscription region 3 is there already");
   EXPECT_EQ(words(filter_.move_subscriber(3, {0.0, 0.0, infinite, 1.0})), "subscription region 3 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.remove_subscriber(4)), "subscription region 4 is not known");
   befriend(7, 3);
@@ -62,16 +62,16 @@ TEST_P(Strangers, AreToldWhatWasWrongAndWhoseItWas) {
 }
 
 TEST_P(Strangers, ChangeNothingByAMistake) {
-  filter_.add_entity(0, here);
-  filter_.add_subscriber(0, here);
+  filter_.add_entity(0, low_corner);
+  filter_.add_subscriber(0, low_corner);
   befriend(0, 0);
   match();
   EXPECT_TRUE(filter_.move_entity(0, {9.0, 9.0, 8.0, 8.0}));
-  EXPECT_TRUE(filter_.add_subscriber(0, there));
+  EXPECT_TRUE(filter_.add_subscriber(0, high_corner));
   EXPECT_TRUE(filter_.remove_entity(1));
   EXPECT_THAT(match(), IsEmpty());
   EXPECT_FALSE(filter_.remove_entity(0));
-  EXPECT_FALSE(filter_.add_entity(0, here)) << "once removed, an id is free";
+  EXPECT_FALSE(filter_.add_entity(0, low_corner)) << "once removed, an id is free";
   befriend(0, 0);
   const auto changes = match();
   ASSERT_EQ(changes.size(), 1u);

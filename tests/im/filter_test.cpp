@@ -10,6 +10,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/im/cases.h"
 #include "tests/im/recount.h"
 
 namespace rink::im {
@@ -18,15 +19,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr Region world{0.0, 0.0, 100.0, 100.0};
 constexpr Region here{10.0, 10.0, 20.0, 20.0}, there{60.0, 60.0, 70.0, 70.0};
-
-Region point(double x, double y) { return {x, y, x, y}; }
-
-std::vector<Change> match(Filter& filter) {
-  const auto changes = filter.match();
-  return {changes.begin(), changes.end()};
-}
 
 class TwoSchemes : public testing::TestWithParam<std::string> {
  protected:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 
 namespace rink::im {
@@ -135,8 +136,6 @@ class UniformPoints {
   };
   std::vector<Place> entities_{20'000}, subscribers_{400};
 };
-
-constexpr FilterSettings hundred{.world = {0.0, 0.0, 100.0, 100.0}};
 
 TEST(AuraScheme, HasAQuarterOfPiOfWhatTheSquareAroundItHas) {
   const UniformPoints points;

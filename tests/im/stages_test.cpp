@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "im/priority_order.h"
+#include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 
 namespace rink::im {
@@ -13,7 +14,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr FilterSettings hundred{.world = {0.0, 0.0, 100.0, 100.0}};
 const char* const behind[] = {"region", "aura", "grid", "cone", "sight", "aura and not sight", "(region or team) and not hex", "not region"};
 
 /// The rule of `text`, which is one of those above.

@@ -10,12 +10,11 @@
 #include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
 #include "im/overlap_filter.h"
+#include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 
 namespace rink::im {
 namespace {
-
-constexpr Region world{0.0, 0.0, 100.0, 100.0};
 
 /// Whole coordinates, so that many regions touch.
 std::vector<Region> regions(std::size_t count, std::uint64_t seed) {

@@ -8,6 +8,7 @@
 
 #include "im/view/exact.h"
 #include "im/view/shadow.h"
+#include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 
 namespace rink::im {
@@ -16,14 +17,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr Region arena{0.0, 0.0, 100.0, 100.0}, here{40.0, 40.0, 60.0, 60.0};
+constexpr Region arena{0.0, 0.0, 100.0, 100.0}, viewer{40.0, 40.0, 60.0, 60.0};
 
-Region point(double x, double y) { return {x, y, x, y}; }
-
-std::vector<Change> match(Filter& filter) {
-  const auto changes = filter.match();
-  return {changes.begin(), changes.end()};
-}
 std::vector<Entity> entered(Filter& filter) {
   std::vector<Entity> entities;
   for (const Change& change : filter.match())
@@ -42,7 +37,7 @@ TEST(Exact, TellsSumsApartThatDoublesTakeForEqual) {
 
 TEST(ConeScheme, IsClosedAtItsEdgesAndItsReachToTheLastBit) {
   const auto filter = make_filter("cone", {.world = arena, .half_angle_deg = 45.0});
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_heading(0, {3.0, 0.0});
   filter->set_update_region(0, point(55.0, 55.0));
   filter->set_update_region(1, point(std::nextafter(55.0, 0.0), 55.0));
@@ -57,7 +52,7 @@ TEST(ConeScheme, IsClosedAtItsEdgesAndItsReachToTheLastBit) {
 
 TEST(ConeScheme, LooksWhereItWasToldElseWhereItWentElseEverywhere) {
   const auto filter = make_filter("cone", {.world = arena, .half_angle_deg = 60.0});
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_update_region(0, point(55.0, 50.0));
   filter->set_update_region(1, point(45.0, 50.0));
   EXPECT_THAT(entered(*filter), ElementsAre(0, 1)) << "it has not moved yet";
@@ -66,7 +61,7 @@ TEST(ConeScheme, LooksWhereItWasToldElseWhereItWentElseEverywhere) {
   EXPECT_THAT(match(*filter), IsEmpty()) << "at rest it goes on looking there";
   filter->set_heading(0, {-1.0, 0.0});
   EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::left}, Change{0, 1, Transition::entered}));
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_subscription_region(0, {41.0, 40.0, 61.0, 60.0});
   EXPECT_THAT(match(*filter), IsEmpty()) << "told is told";
   filter->set_heading(0, {});
@@ -77,7 +72,7 @@ TEST(ConeScheme, LooksWhereItWasToldElseWhereItWentElseEverywhere) {
 
 TEST(ConeScheme, IsNetAndCostsNothingWhereNobodyTurns) {
   const auto filter = make_filter("cone", {.world = arena});
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_heading(0, {1.0, 0.0});
   for (Entity entity = 0; entity < 100; ++entity) filter->set_update_region(entity, point(entity, 50.0));
   filter->match();
@@ -131,7 +126,7 @@ TEST(ConeScheme, HasTheShareOfTheDiscThatItsAngleHas) {
 
 TEST(SightScheme, HidesWhatOnePostCoversAndSeesPastItsRim) {
   const auto filter = make_filter("sight", {.world = arena, .posts = {{50.0, 55.0, 1.0}}});
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_update_region(0, point(50.0, 58.0));         // straight behind the post
   filter->set_update_region(1, point(50.0, 53.0));         // before it
   filter->set_update_region(2, {49.5, 58.0, 50.5, 58.5});  // all of it behind
@@ -146,7 +141,7 @@ TEST(SightScheme, LetsAWayPassThatOnlyTouchesAPost) {
   // From (50, 50) straight up along x = 50 past a post whose rim is there.
   const auto sees = [](double middle_x) {
     const auto filter = make_filter("sight", {.world = arena, .posts = {{middle_x, 54.0, 2.0}}});
-    filter->set_subscription_region(0, here);
+    filter->set_subscription_region(0, viewer);
     filter->set_update_region(0, point(50.0, 58.0));
     return filter->match().size() == 1;
   };
@@ -157,7 +152,7 @@ TEST(SightScheme, LetsAWayPassThatOnlyTouchesAPost) {
 
 TEST(SightScheme, IsNotBlindedByAPostAroundItsEye) {
   const auto filter = make_filter("sight", {.world = arena, .posts = {{50.0, 50.5, 1.0}}});
-  filter->set_subscription_region(0, here);
+  filter->set_subscription_region(0, viewer);
   filter->set_update_region(0, point(50.0, 58.0));
   filter->set_subscription_region(1, {40.0, 39.5, 60.0, 59.5});  // its eye is on the rim
   EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::entered}));

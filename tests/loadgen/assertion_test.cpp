@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "canned_reports.h"
+#include "complaint.h"
 
 namespace rink::loadgen {
 namespace {
@@ -36,13 +37,8 @@ std::vector<SummaryRow> measured() {
 bool holds(const std::string& text) { return Assertion(text, experiment()).judge(measured()).holds; }
 std::string words(const std::string& text) { return Assertion(text, experiment()).judge(measured()).words; }
 
-std::string complaint_about(const std::string& text) {
-  try {
-    Assertion(text, experiment());
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "no complaint";
+std::string assertion_complaint(const std::string& text) {
+  return complaint_of([&] { Assertion(text, experiment()); });
 }
 
 TEST(Assertion, ArithmeticAndLogicBindAsUsual) {
@@ -89,22 +85,22 @@ TEST(Assertion, WhatWasNotMeasuredFailsAndIsNamed) {
 }
 
 TEST(Assertion, NamesThatDoNotExistAreRefusedWithThoseThatDo) {
-  EXPECT_THAT(complaint_about("down_bytes > 3"), AllOf(HasSubstr("no figure is called down_bytes"), HasSubstr("down_bytes_per_client_per_s"), HasSubstr("update_age_ms_p99")));
-  EXPECT_THAT(complaint_about("filter_recall[filter=grid] > 3"), AllOf(HasSubstr("no key of a cell is called filter"), HasSubstr("scheme")));
-  EXPECT_THAT(complaint_about("filter_recall[scheme=gird] > 3"), AllOf(HasSubstr("no cell for filter_recall[scheme=gird]"), HasSubstr("client-server-grid-periodic-10")));
-  EXPECT_THAT(complaint_about("filter_recall[clients=ten] > 3"), HasSubstr("clients = ten is not"));
-  EXPECT_THAT(complaint_about("filter_recall[clients=30] > 3"), HasSubstr("no cell for"));
+  EXPECT_THAT(assertion_complaint("down_bytes > 3"), AllOf(HasSubstr("no figure is called down_bytes"), HasSubstr("down_bytes_per_client_per_s"), HasSubstr("update_age_ms_p99")));
+  EXPECT_THAT(assertion_complaint("filter_recall[filter=grid] > 3"), AllOf(HasSubstr("no key of a cell is called filter"), HasSubstr("scheme")));
+  EXPECT_THAT(assertion_complaint("filter_recall[scheme=gird] > 3"), AllOf(HasSubstr("no cell for filter_recall[scheme=gird]"), HasSubstr("client-server-grid-periodic-10")));
+  EXPECT_THAT(assertion_complaint("filter_recall[clients=ten] > 3"), HasSubstr("clients = ten is not"));
+  EXPECT_THAT(assertion_complaint("filter_recall[clients=30] > 3"), HasSubstr("no cell for"));
 }
 
 TEST(Assertion, WhatIsNoDemandIsRefusedWithTheColumn) {
   for (const char* text : {"", "1", "1 >", "(1 > 2", "1 > 2)", "1 < 2 < 3", "ticks[", "ticks[scheme]", "ticks[scheme=none > 1", "1 + (2 > 1) > 0", "1 and 2", "not 1", "1 > 2 3", "1 = 1", "\x01 > 1"})
-    EXPECT_THAT(complaint_about(text), AllOf(HasSubstr("--assert '"), HasSubstr("column"), HasSubstr("expected"))) << text;
+    EXPECT_THAT(assertion_complaint(text), AllOf(HasSubstr("--assert '"), HasSubstr("column"), HasSubstr("expected"))) << text;
   const std::string deep(1'000, '(');
-  EXPECT_THAT(complaint_about(deep + "1 > 0"), HasSubstr("levels of parentheses"));
+  EXPECT_THAT(assertion_complaint(deep + "1 > 0"), HasSubstr("levels of parentheses"));
   std::string nots;
   for (int i = 0; i < 500; ++i) nots += "not ";
-  EXPECT_THAT(complaint_about(nots + "1 > 0"), HasSubstr("levels of parentheses"));
-  EXPECT_THAT(complaint_about(std::string(100'000, '-') + "1 > 0"), HasSubstr("longer than"));
+  EXPECT_THAT(assertion_complaint(nots + "1 > 0"), HasSubstr("levels of parentheses"));
+  EXPECT_THAT(assertion_complaint(std::string(100'000, '-') + "1 > 0"), HasSubstr("longer than"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "complaint.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/virtual_run.h"
 #include "tests/temporary_folder.h"
@@ -16,17 +17,12 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string minimal = "name = 'x'\nscene = 'crowd'\ntransport = 'virtual'\n";
+const std::string minimal_virtual = "name = 'x'\nscene = 'crowd'\ntransport = 'virtual'\n";
 
-Experiment experiment_with(const std::string& text) { return parse_experiment(minimal + text, "x.toml", {}); }
+Experiment experiment_with(const std::string& text) { return parse_experiment(minimal_virtual + text, "x.toml", {}); }
 
-std::string complaint_about(const std::string& text) {
-  try {
-    experiment_with(text);
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "none";
+std::string network_complaint(const std::string& text) {
+  return complaint_of([&] { experiment_with(text); });
 }
 
 TEST(ExperimentNetwork, WithoutItTheDelayIsAllThereIs) {
@@ -85,17 +81,17 @@ direction = "down"
 }
 
 TEST(ExperimentNetwork, WhatMakesNoNetworkIsRefusedWithLineAndKey) {
-  EXPECT_THAT(complaint_about("[network]\nlatency_ms = -1"), AllOf(StartsWith("x.toml:5: network.latency_ms = -1"), HasSubstr("0 to 10000")));
-  EXPECT_THAT(complaint_about("[network]\nloss = 1"), HasSubstr("network.loss = 1: allowed is a number from 0 to 0.99"));
-  EXPECT_THAT(complaint_about("[network]\nloss = 0.9\nburst = 2"), HasSubstr("at least loss / (1 - loss)"));
-  EXPECT_THAT(complaint_about("[network]\nloss = 0.1\n[network.gilbert_elliott]\nto_bad = 0.1"), AllOf(HasSubstr("network.gilbert_elliott: loss and burst"), StartsWith("x.toml:6")));
-  EXPECT_THAT(complaint_about("[network.up]\nqueue_bytes = 10"), HasSubstr("network.up.queue_bytes = 10: allowed is a whole number from 1500"));
-  EXPECT_THAT(complaint_about("[network]\nlosses = 0.1"), AllOf(HasSubstr("unknown key network.losses"), HasSubstr("jitter_ms")));
-  EXPECT_THAT(complaint_about("[[network.partition]]\nfrom_s = 3\nuntil_s = 2"), HasSubstr("network.partition.until_s = 2"));
-  EXPECT_THAT(complaint_about("[[network.partition]]\nfrom_s = 3"), HasSubstr("until_s is missing"));
-  EXPECT_THAT(complaint_about("[[network.links]]\nfirst = 3\nlast = 2"), HasSubstr("network.links.last = 2"));
-  EXPECT_THAT(complaint_about("[network]\npartition = 3"), HasSubstr("a list of tables"));
-  EXPECT_THAT(complaint_about("network = 3"), HasSubstr("network = 3: allowed is a table"));
+  EXPECT_THAT(network_complaint("[network]\nlatency_ms = -1"), AllOf(StartsWith("x.toml:5: network.latency_ms = -1"), HasSubstr("0 to 10000")));
+  EXPECT_THAT(network_complaint("[network]\nloss = 1"), HasSubstr("network.loss = 1: allowed is a number from 0 to 0.99"));
+  EXPECT_THAT(network_complaint("[network]\nloss = 0.9\nburst = 2"), HasSubstr("at least loss / (1 - loss)"));
+  EXPECT_THAT(network_complaint("[network]\nloss = 0.1\n[network.gilbert_elliott]\nto_bad = 0.1"), AllOf(HasSubstr("network.gilbert_elliott: loss and burst"), StartsWith("x.toml:6")));
+  EXPECT_THAT(network_complaint("[network.up]\nqueue_bytes = 10"), HasSubstr("network.up.queue_bytes = 10: allowed is a whole number from 1500"));
+  EXPECT_THAT(network_complaint("[network]\nlosses = 0.1"), AllOf(HasSubstr("unknown key network.losses"), HasSubstr("jitter_ms")));
+  EXPECT_THAT(network_complaint("[[network.partition]]\nfrom_s = 3\nuntil_s = 2"), HasSubstr("network.partition.until_s = 2"));
+  EXPECT_THAT(network_complaint("[[network.partition]]\nfrom_s = 3"), HasSubstr("until_s is missing"));
+  EXPECT_THAT(network_complaint("[[network.links]]\nfirst = 3\nlast = 2"), HasSubstr("network.links.last = 2"));
+  EXPECT_THAT(network_complaint("[network]\npartition = 3"), HasSubstr("a list of tables"));
+  EXPECT_THAT(network_complaint("network = 3"), HasSubstr("network = 3: allowed is a table"));
   try {
     parse_experiment("name = 'x'\nscene = 'crowd'\n[network]\nloss = 0.1", "x.toml", {});
     FAIL();

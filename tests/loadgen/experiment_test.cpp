@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "complaint.h"
 #include "loadgen/plan_text.h"
 #include "tests/places.h"
 
@@ -22,12 +23,7 @@ using testing::StartsWith;
 const std::string minimal = "name = \"x\"\nscene = \"crowd\"\n";
 
 std::string complaint_about(const std::string& text) {
-  try {
-    parse_experiment(text, "dir/x.toml", {});
-  } catch (const ExperimentError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of([&] { parse_experiment(text, "dir/x.toml", {}); });
 }
 
 TEST(ExperimentFile, WhatIsNotSaidHasTheDocumentedDefault) {

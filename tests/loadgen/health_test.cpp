@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "areas.h"
 #include "game/model/random_stream.h"
 #include "im/filter.h"
 #include "loadgen/truth/classification.h"
@@ -19,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double R = 1.0;        // the interest radius [m]
+constexpr double R = disc.reach; // the interest radius [m]
 constexpr double side = 24.0;    // of the box in which the points are [m]; observers stay farther from its border than anything they ask about
 constexpr double density = 60.0; // points per m^2
 constexpr double speed = 1.0;    // of points and observers [m/s]
@@ -51,8 +52,6 @@ class Gas {
   game::RandomStream random_;
   std::vector<Body> points_, observers_;
 };
-
-constexpr std::uint32_t nobody = 0xffffffffu;
 
 /// One of the real filters, told where everything is at an instant; observers subscribe to the square of half side `reach`.
 class Decisions {
@@ -99,8 +98,6 @@ Classification judged(const Gas& gas, const Decisions& decisions, const Relevanc
   }
   return counts;
 }
-
-constexpr RelevanceArea square{RelevanceArea::Shape::square, R}, disc{RelevanceArea::Shape::disc, R};
 
 TEST(Health, ASetThatAgesLosesRecallAsEntitiesCrossItsBorder) {
   const Gas gas;

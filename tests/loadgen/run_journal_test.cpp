@@ -15,11 +15,11 @@ namespace {
 
 using testing::HasSubstr;
 
-const Cell cell{"client-server", "grid", "periodic", 10, 4, {.view_fraction = 0.1, .view_margin = 0.25, .sweep_ticks = 3, .cell_size = 1.0 / 3.0}, 500, 50, 2};
+const Cell cell_of_odd_numbers{"client-server", "grid", "periodic", 10, 4, {.view_fraction = 0.1, .view_margin = 0.25, .sweep_ticks = 3, .cell_size = 1.0 / 3.0}, 500, 50, 2};
 
 RunRecord plain_run() {
-  RunRecord run = record_for(small_experiment(), cell);
-  judge(run, canned_server_report(cell), canned_bots_report(cell));
+  RunRecord run = record_for(small_experiment(), cell_of_odd_numbers);
+  judge(run, canned_server_report(cell_of_odd_numbers), canned_bots_report(cell_of_odd_numbers));
   return run;
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "areas.h"
 #include "game/model/random_stream.h"
 #include "loadgen/truth/classification.h"
 #include "loadgen/truth/replay.h"
@@ -21,9 +22,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr RelevanceArea square{RelevanceArea::Shape::square, 1.0}, disc{RelevanceArea::Shape::disc, 1.0};
-constexpr std::uint32_t nobody = 0xffffffffu;
 
 TEST(Relevance, ABoxThatTouchesTheSquareIsRelevantAndOneAHairBeyondIsNot) {
   const Vector2 bat(2.0, 3.0), half_extent(0.25, 0.5);

@@ -26,8 +26,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-using test::text_of;
-
 class VirtualRunTest : public testing::Test {
  protected:
   VirtualRunTest() {
@@ -57,7 +55,7 @@ class VirtualRunTest : public testing::Test {
     EXPECT_EQ(record.value_or(RunRecord{}).why_invalid, "");
     return record.value_or(RunRecord{});
   }
-  nlohmann::json report(const Cell& cell, const char* who) const { return nlohmann::json::parse(text_of(folder_ / (name_of(cell) + "." + who + ".json"))); }
+  nlohmann::json report(const Cell& cell, const char* who) const { return nlohmann::json::parse(test::text_of(folder_ / (name_of(cell) + "." + who + ".json"))); }
   Cell first_cell() const { return cells_of(experiment_).front(); }
 
   test::TemporaryFolder folder_{"virtual"};
@@ -152,7 +150,7 @@ TEST_F(VirtualRunTest, TheSameSeedGivesTheSameBytesWhereverItRuns) {
     results.write("summary.csv", to_csv(summarise(outcome.runs)));
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(results.path()))
-      if (entry.is_regular_file()) files[std::filesystem::relative(entry.path(), results.path())] = text_of(entry.path());
+      if (entry.is_regular_file()) files[std::filesystem::relative(entry.path(), results.path())] = test::text_of(entry.path());
     EXPECT_GE(files.size(), 7u) << "runs, summary, a key log, and two reports for each of two cells";
     if (first.empty()) first = files;
     for (const auto& [name, content] : first) EXPECT_EQ(files[name], content) << name;

@@ -15,6 +15,12 @@
 
 namespace rink::game {
 
+/// Whether a box of these half sides touches `view`.
+inline bool overlaps(const im::Region& view, const Vector2& centre, const Vector2& half_extent) {
+  return centre.x() - half_extent.x() <= view.high_x && centre.x() + half_extent.x() >= view.low_x && centre.y() - half_extent.y() <= view.high_y &&
+         centre.y() + half_extent.y() >= view.low_y;
+}
+
 /// What a lockstep rink is made of; everything but the scene has a default that suits most tests.
 struct LockstepSettings {
   std::string scheme = "region";

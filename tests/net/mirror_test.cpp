@@ -11,11 +11,6 @@
 namespace rink::game {
 namespace {
 
-bool overlaps(const im::Region& view, const Vector2& centre, const Vector2& half_extent) {
-  return centre.x() - half_extent.x() <= view.high_x && centre.x() + half_extent.x() >= view.low_x && centre.y() - half_extent.y() <= view.high_y &&
-         centre.y() + half_extent.y() >= view.low_y;
-}
-
 bool holds(const im::Region& view, const Vector2& centre) { return overlaps(view, centre, {0.0, 0.0}); }
 
 class MirrorUnderScheme : public testing::TestWithParam<const char*> {

@@ -19,11 +19,6 @@ struct Error {
 /// The grid decides by centres.
 bool is_by_centre(LockstepRink& rink) { return rink.scheme() == "grid"; }
 
-bool overlaps(const im::Region& view, const Vector2& centre, const Vector2& half_extent) {
-  return centre.x() - half_extent.x() <= view.high_x && centre.x() + half_extent.x() >= view.low_x && centre.y() - half_extent.y() <= view.high_y &&
-         centre.y() + half_extent.y() >= view.low_y;
-}
-
 std::vector<im::Region> views_of(LockstepRink& rink) {
   std::vector<im::Region> views;
   for (std::size_t k = 0; k < rink.client_count(); ++k) views.push_back(rink.client(k).view());

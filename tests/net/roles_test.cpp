@@ -25,7 +25,7 @@ std::optional<bool> touches(const im::Region& view, const im::Region& box) {
   return distance < radius;
 }
 
-std::vector<rti::SubscribedRegion> views_of(LockstepRink& rink) {
+std::vector<rti::SubscribedRegion> subscribed_views(LockstepRink& rink) {
   std::vector<rti::SubscribedRegion> views;
   rink.execution().list_subscribed_regions(views);
   return views;
@@ -33,7 +33,7 @@ std::vector<rti::SubscribedRegion> views_of(LockstepRink& rink) {
 
 /// Plays a tick and holds every player's scope against `meaning`; returns how many pairs were in scope.
 std::size_t recount(LockstepRink& rink, const Meaning& meaning) {
-  const auto views = views_of(rink);  // before the players hear of the tick and look elsewhere
+  const auto views = subscribed_views(rink);  // before the players hear of the tick and look elsewhere
   rink.tick();
   const Game& game = rink.server().game();
   std::size_t in_scope = 0;

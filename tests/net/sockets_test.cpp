@@ -10,6 +10,7 @@
 #include "rti/transport/tcp.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
+#include "tests/net/wall_clock.h"
 #include "tests/places.h"
 
 namespace rink::game {
@@ -18,8 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double rate_hz = 50.0, duration_s = 0.6;
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// The server's thread: waits for two players, then ticks in real time until the duration is over. Returns the final state's hash.
 std::uint64_t serve(const Scene& scene, const std::vector<InputEvent>& log, const std::string& scheme, std::atomic<std::uint16_t>& port) {

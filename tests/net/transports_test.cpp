@@ -17,12 +17,11 @@
 #include "rti/transport/socket_transport.h"
 #include "rti/transport/virtual_network.h"
 #include "tests/net/scenes.h"
+#include "tests/net/wall_clock.h"
 #include "tests/places.h"
 
 namespace rink::game {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// The server's and the players' end of one kind of transport.
 struct Carrier {

@@ -12,8 +12,6 @@
 namespace rink::peer::test {
 namespace {
 
-const physics::Field field = physics::test::rink_of(4.0, 2.0).field;
-
 /// Events per square metre, evenly or mostly about one place.
 double density(double x, double y, double peak) { return 1.0 + peak * std::exp(-((x - 0.9) * (x - 0.9) + (y - 0.6) * (y - 0.6)) / 0.2); }
 

@@ -9,8 +9,6 @@ namespace {
 
 using testing::HasSubstr;
 
-const physics::Field field = physics::test::rink_of(4.0, 2.0).field;
-
 std::string objection(const std::vector<Zone>& zones, PeerNumber peer_count = 2) { return Division::objection(field, zones, peer_count).value_or(""); }
 
 TEST(Division, OfTwoHalvesOrManyRectanglesIsAccepted) {

@@ -6,12 +6,12 @@
 namespace rink::peer::test {
 namespace {
 
-constexpr std::uint64_t window_count = 30;
+constexpr std::uint64_t joining_window_count = 30;
 
 TEST(Joining, OneAloneIsJoinedByOthersAndAllHaveTheStatesOfOneEngine) {
   for (std::uint64_t seed = 0; seed < 20 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Play play(seed, 1, window_count);
+    Play play(seed, 1, joining_window_count);
     play.balance_windows = static_cast<std::uint32_t>(seed % 3);
     play.before_window = [&](Session& session, End end) {
       if (end == 0 && session.window() % 5 == 1 && session.window() < 20) play.invite(0);
@@ -28,7 +28,7 @@ TEST(Joining, OneAloneIsJoinedByOthersAndAllHaveTheStatesOfOneEngine) {
 TEST(Joining, ThroughDifferentPeersAtTheSameWindowGivesDifferentNumbers) {
   for (std::uint64_t seed = 0; seed < 20 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Play play(seed, 3, window_count);
+    Play play(seed, 3, joining_window_count);
     play.before_window = [&](Session& session, End end) {
       if (session.window() == 3 && end < 3) play.invite(end), play.invite(end);
       if (session.window() > 3 && end == 0 && session.members().size() < 9) std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -61,7 +61,7 @@ TEST(Joining, PlaysBatsOfItsOwnAndTheUnionOfTheLogsIsTheSameGame) {
   std::size_t keys = 0, joined = 0;
   for (std::uint64_t seed = 0; seed < 12 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Play play(6 + seed % 2 + 10 * seed, 2, window_count);
+    Play play(6 + seed % 2 + 10 * seed, 2, joining_window_count);
     play.is_live = true, play.spare_bats = 3;
     play.before_window = [&](Session& session, End end) {
       if (end < 2 && session.window() == 4) play.invite(end, 1);
@@ -87,12 +87,12 @@ void play_storm(std::uint64_t seed, bool has_partition, Storm& storm) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   Random random(seed + 1000);
   const PeerNumber peer_count = 1 + below(random, 4);
-  Play play(below(random, 800), peer_count, window_count);
+  Play play(below(random, 800), peer_count, joining_window_count);
   play.balance_windows = static_cast<std::uint32_t>(seed % 3);
   // By end: who leaves when, and who dies at which word. Most do neither.
   std::vector<std::uint64_t> leaving(LossyOffice::ends_max, 99), dying(LossyOffice::ends_max, 0);
   for (End end = 0; end < LossyOffice::ends_max; ++end) {
-    if (below(random, 4) == 0) leaving[end] = below(random, window_count);
+    if (below(random, 4) == 0) leaving[end] = below(random, joining_window_count);
     if (!has_partition && below(random, 5) == 0) dying[end] = 1 + below(random, 400);
   }
   std::vector<std::vector<std::uint64_t>> joining(LossyOffice::ends_max);

@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "tests/peer/fate.h"
 #include "tests/peer/shared_scenes.h"
 #include "tests/peer/virtual_mail.h"
 
@@ -14,11 +15,8 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::uint64_t window_count = 30;
-constexpr double window_length = 0.01;               // s
-constexpr std::int64_t window_pace_ns = 50 * ms;     // of the network's clock
+constexpr std::int64_t window_pace_ns = 50 * ms;  // of the network's clock
 constexpr std::int64_t patience_ns = 300 * ms;
-
-enum class Fate : std::uint8_t { playing, done, halted };
 
 struct Outcomes {
   std::vector<Fate> fates;
@@ -39,7 +37,7 @@ class PartitionPlay {
         cuts_(Cuts::by_count(start_.world.spec().field, places(), peer_count)) {
     std::stable_sort(start_.keys.begin(), start_.keys.end(), [](const Key& a, const Key& b) { return a.time != b.time ? a.time < b.time : a.bat < b.bat; });
     for (PeerNumber number = 0; number < peer_count; ++number) mails_.emplace_back(network_, turns_, number, peer_count, patience_ns);
-    outcomes_.fates.resize(peer_count), outcomes_.messages.resize(peer_count), outcomes_.ends.resize(peer_count), outcomes_.counters.resize(peer_count);
+    outcomes_.fates.resize(peer_count, Fate::playing), outcomes_.messages.resize(peer_count), outcomes_.ends.resize(peer_count), outcomes_.counters.resize(peer_count);
     outcomes_.last_steps.resize(peer_count);
   }
 

@@ -13,14 +13,11 @@
 #include <thread>
 
 #include "game/peer/session.h"
+#include "tests/peer/fate.h"
 #include "tests/peer/lossy_mail.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
-
-inline constexpr double window_length = 0.01;
-
-enum class Fate : std::uint8_t { away, playing, done, killed, halted, left };
 
 /// One scene among peers in threads, with whatever befalls them.
 class Play {

@@ -13,6 +13,9 @@ namespace rink::peer::test {
 using physics::test::uniform;
 using Random = std::mt19937_64;
 
+/// To be divided without a scene.
+inline const physics::Field field = physics::test::rink_of(4.0, 2.0).field;
+
 inline std::uint32_t below(Random& random, std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); }
 
 /// Rectangles by cuts at random places, or through the middle, as many as there are peers or more; each peer has one at least.

@@ -16,7 +16,7 @@ using reference::Seeded;
 using Point = Vector<double>;
 
 constexpr double pi = 3.141592653589793, radius = 0.04;
-const Box<double> bat{{0.0, 0.0}, {0.03, 0.1}};  // the bat of scenes/match.toml
+const Box<double> match_bat{{0.0, 0.0}, {0.03, 0.1}};  // the bat of scenes/match.toml
 
 /// Flights at 1 m/s from everywhere and past every place alike (isotropic lines). By Cauchy and Crofton such lines hit a convex set as often as its perimeter is long, and
 /// enter it evenly along the perimeter, so the shares have closed forms.
@@ -31,7 +31,7 @@ struct Flights {
       const Point heading = seeded.direction(), left(-heading.y(), heading.x());
       const Disc<double> puck{0.2 * seeded.uniform(-1.0, 1.0) * left - heading, radius};
       const Point still(0.0, 0.0);
-      add(time_disc_meets_sharp_box(puck, heading, bat, still), time_disc_meets_rounded_box(puck, heading, bat, still));
+      add(time_disc_meets_sharp_box(puck, heading, match_bat, still), time_disc_meets_rounded_box(puck, heading, match_bat, still));
     }
     std::ranges::sort(early);
     std::ranges::sort(turned);
@@ -50,7 +50,7 @@ struct Flights {
 
 double quantile(const std::vector<double>& sorted, double part) { return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))]; }
 
-double perimeter_of_box() { return 4.0 * bat.half_extent.sum(); }
+double perimeter_of_box() { return 4.0 * match_bat.half_extent.sum(); }
 
 /// Shares of all hits of the sharp box.
 double expected_false() { return (8.0 - 2.0 * pi) * radius / (perimeter_of_box() + 8.0 * radius); }

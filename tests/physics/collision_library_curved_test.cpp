@@ -89,7 +89,7 @@ void judge_shapes(Errors& errors, Seeded& seeded, Difficulty difficulty, Shapes 
   judge(errors, answer, obstacle.gap(flight.at(time)), pair.length(time, reach), [&](double t) { return obstacle.holds(flight.near(t)); });
 }
 
-void judge_edge(Errors& errors, Seeded& seeded, Difficulty difficulty) {
+void judge_driven_edge(Errors& errors, Seeded& seeded, Difficulty difficulty) {
   Point half = scale_of(difficulty) * Point(seeded.uniform(-0.2, 0.2), seeded.uniform(0.02, 0.2));
   const Pair pair(seeded, difficulty, 1.01 * half.norm());
   const Curved flight{pair.a, pair.b};
@@ -132,7 +132,7 @@ void judge_everything(int count, bool is_table) {
   judge_many("disc, disc", count, is_table, [](Errors& e, Seeded& s, Difficulty d) { judge_shapes(e, s, d, Shapes::discs); });
   judge_many("disc, rounded box", count, is_table, [](Errors& e, Seeded& s, Difficulty d) { judge_shapes(e, s, d, Shapes::disc_and_box); });
   judge_many("box, box", count, is_table, [](Errors& e, Seeded& s, Difficulty d) { judge_shapes(e, s, d, Shapes::boxes); });
-  judge_many("point, edge", count, is_table, judge_edge);
+  judge_many("point, edge", count, is_table, judge_driven_edge);
 }
 
 TEST(DrivenTimesOfImpact, AreWithinRoundingOfTheExactPaths) { judge_everything(200, false); }

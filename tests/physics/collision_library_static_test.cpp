@@ -91,19 +91,19 @@ double plane_distance(Difficulty difficulty, int count) {
   return worst;
 }
 
-struct Subject {
+struct StaticTest {
   const char* name;
   double (*worst)(Difficulty, int);
 };
-constexpr Subject subjects[] = {{"point, plane", plane_distance},
-                                {"point, circle", point_in_circle},
-                                {"bounding circles", bounding_circles},
-                                {"disc, box", disc_and_box},
-                                {"box, box", boxes}};
+constexpr StaticTest static_tests[] = {{"point, plane", plane_distance},
+                                       {"point, circle", point_in_circle},
+                                       {"bounding circles", bounding_circles},
+                                       {"disc, box", disc_and_box},
+                                       {"box, box", boxes}};
 
 void judge(int count, bool is_table) {
   if (is_table) std::printf("| static test | random | tiny | huge | far |\n|---|---|---|---|---|\n");
-  for (const Subject& subject : subjects) {
+  for (const StaticTest& subject : static_tests) {
     if (is_table) std::printf("| %s |", subject.name);
     for (const Difficulty difficulty : {Difficulty::random, Difficulty::tiny, Difficulty::huge, Difficulty::far}) {
       const double worst = subject.worst(difficulty, count);

@@ -10,7 +10,7 @@
 namespace rink::physics::test {
 namespace {
 
-BatSpec bat_at(double x, double y, double mass = 3.0) { return thin_bat_at(x, y, 0.3, mass); }
+BatSpec wide_bat_at(double x, double y, double mass = 3.0) { return thin_bat_at(x, y, 0.3, mass); }
 
 PostSpec post_at(double x, double y, double radius = 0.1) {
   PostSpec post;
@@ -46,7 +46,7 @@ bool comes_to_rest(const World& world, Watch& watch, BodyId bat, const Vector2& 
 TEST_P(Pressed, PuckIntoAWall) {
   for (const double y : {0.8, 1.0, 1.25}) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
-    const BodyId puck = world.add(light_puck_at(0.5, y)), bat = world.add(bat_at(1, 1));
+    const BodyId puck = world.add(light_puck_at(0.5, y)), bat = world.add(wide_bat_at(1, 1));
     Watch watch(world, {bat});
     EXPECT_TRUE(comes_to_rest(world, watch, bat, {-6, 0}) || GetParam() == 1.0);
     if (GetParam() < 1.0) {
@@ -59,7 +59,7 @@ TEST_P(Pressed, PuckIntoAWall) {
 }
 
 TEST_P(Pressed, RowOfPucksIntoAWall) {
-  const BodyId bat = world_.add(bat_at(1, 1));
+  const BodyId bat = world_.add(wide_bat_at(1, 1));
   std::vector<BodyId> row;
   for (int i = 0; i < 5; ++i) row.push_back(world_.add(light_puck_at(0.1 + 0.1 * i, 1)));
   Watch watch(world_, {bat});
@@ -69,7 +69,7 @@ TEST_P(Pressed, RowOfPucksIntoAWall) {
 
 TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
   World world(rink_of(40, 2, GetParam(), 0.2, 1.0));
-  const BodyId bat = world.add(bat_at(1, 1));
+  const BodyId bat = world.add(wide_bat_at(1, 1));
   std::vector<BodyId> row;
   for (int i = 0; i < 4; ++i) row.push_back(world.add(light_puck_at(1.1 + 0.1 * i, 1, i % 2 == 0 ? 0.5 : 0.02)));
   Watch watch(world, {bat});
@@ -86,7 +86,7 @@ TEST_P(Pressed, RowOfPucksBeforeABatMovesAsOneToTheLastBit) {
 }
 
 TEST_P(Pressed, PucksSideBySideIntoAWall) {
-  const BodyId bat = world_.add(bat_at(1, 1));
+  const BodyId bat = world_.add(wide_bat_at(1, 1));
   for (int i = 0; i < 5; ++i) world_.add(light_puck_at(0.2 + 0.05 * i, 0.8 + 0.1 * i, 0.1 * (i + 1)));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
@@ -95,7 +95,7 @@ TEST_P(Pressed, PucksSideBySideIntoAWall) {
 TEST_P(Pressed, PuckIntoACorner) {
   for (const double start : {0.1, 0.15, 0.2}) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
-    const BodyId bat = world.add(bat_at(1, 0.5));
+    const BodyId bat = world.add(wide_bat_at(1, 0.5));
     world.add(light_puck_at(0.5, start));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, -6});
@@ -106,7 +106,7 @@ TEST_P(Pressed, PuckIntoACorner) {
 }
 
 TEST_P(Pressed, ThreePucksIntoACorner) {
-  const BodyId bat = world_.add(bat_at(1, 0.5));
+  const BodyId bat = world_.add(wide_bat_at(1, 0.5));
   for (int i = 0; i < 3; ++i) world_.add(light_puck_at(0.1 + 0.15 * i, 0.1 + 0.05 * i, i == 1 ? 3.0 : 0.1));
   Watch watch(world_, {bat});
   comes_to_rest(world_, watch, bat, {-6, -6});
@@ -117,7 +117,7 @@ TEST_P(Pressed, PuckIntoAPost) {
     SCOPED_TRACE(offset);
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
     world.add(post_at(0.5, 1));
-    const BodyId bat = world.add(bat_at(1, 1));
+    const BodyId bat = world.add(wide_bat_at(1, 1));
     world.add(light_puck_at(0.8, 1 + offset));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, 0});
@@ -129,7 +129,7 @@ TEST_P(Pressed, RowOfPucksIntoAPost) {
     SCOPED_TRACE(offset);
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
     world.add(post_at(0.3, 1));
-    const BodyId bat = world.add(bat_at(1.5, 1));
+    const BodyId bat = world.add(wide_bat_at(1.5, 1));
     for (int i = 0; i < 4; ++i) world.add(light_puck_at(0.5 + 0.15 * i, 1 + offset * (i % 2)));
     Watch watch(world, {bat});
     comes_to_rest(world, watch, bat, {-6, 0});
@@ -143,7 +143,7 @@ TEST_P(Pressed, TwoPucksIntoAPost) {
       SCOPED_TRACE(testing::Message() << "shift " << shift << ", mass " << mass);
       World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
       world.add(post_at(0.5, 1, 0.15));
-      const BodyId bat = world.add(bat_at(1.2, 1));
+      const BodyId bat = world.add(wide_bat_at(1.2, 1));
       world.add(light_puck_at(0.8, 1.045 + shift, mass)), world.add(light_puck_at(0.8, 0.955 + shift));
       Watch watch(world, {bat});
       comes_to_rest(world, watch, bat, {-6, 0});
@@ -153,7 +153,7 @@ TEST_P(Pressed, TwoPucksIntoAPost) {
 /// Between two posts, a wall and the bat there is no way out.
 TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
   world_.add(post_at(0.1, 0.9)), world_.add(post_at(0.1, 1.1));
-  const BodyId bat = world_.add(bat_at(1, 1)), puck = world_.add(light_puck_at(0.5, 1.0));
+  const BodyId bat = world_.add(wide_bat_at(1, 1)), puck = world_.add(light_puck_at(0.5, 1.0));
   Watch watch(world_, {bat});
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
   if (GetParam() == 1.0) return;
@@ -171,7 +171,7 @@ TEST_P(Pressed, TrappedPuckStaysAndIsReleasedWhenTheBatWithdraws) {
 }
 
 TEST_P(Pressed, WholeRackIntoACorner) {
-  const BodyId bat = world_.add(bat_at(1.5, 0.4)), other = world_.add(bat_at(1.5, 1.4));
+  const BodyId bat = world_.add(wide_bat_at(1.5, 0.4)), other = world_.add(wide_bat_at(1.5, 1.4));
   std::mt19937_64 random(9);
   for (int i = 0; i < 20; ++i) world_.add(light_puck_at(0.1 + 0.1 * (i % 5), 0.1 + 0.1 * (i / 5), std::pow(10.0, uniform(random, -2.0, 1.0))));
   Watch watch(world_, {bat, other});

@@ -8,7 +8,7 @@
 namespace rink::physics::test {
 namespace {
 
-constexpr double puck_drag = 0.2, bat_drag = 1.0, thrust = 6.0, radius = 0.04;
+constexpr double puck_drag = 0.2, bat_drag = 1.0, thrust = 6.0, puck_radius = 0.04;
 /// Bodies are placed this far apart, so that rounding starts none of them in overlap [m].
 constexpr double crack = 1e-14;
 
@@ -74,7 +74,7 @@ BatSpec driving_bat(double mass, double face_x) {
 
 PuckSpec puck_of(double mass, const Vector2& position) {
   PuckSpec puck;
-  puck.radius = radius;
+  puck.radius = puck_radius;
   puck.mass = mass;
   puck.position = position;
   return puck;
@@ -119,11 +119,11 @@ struct Squirt {
     World world(spec);
     PostSpec post;
     post.position = {1.0, 1.0};
-    post.radius = reach - radius;
+    post.radius = reach - puck_radius;
     world.add(post);
     const PuckSpec puck = puck_of(puck_mass, post.position + (reach + crack) * Vector2(std::cos(start), std::sin(start)));
     const BodyId pressed = world.add(puck);
-    return drive(world, {pressed}, driving_bat(bat_mass, puck.position.x() + radius), until);
+    return drive(world, {pressed}, driving_bat(bat_mass, puck.position.x() + puck_radius), until);
   }
 };
 
@@ -131,7 +131,7 @@ struct Squirt {
 /// centres, q the angle between the line of centres and the x axis: T = (2 m cos^2 q + (M + n) sin^2 q) l^2 q'^2/2.
 struct WedgeAtWall {
   double puck_mass, driver_mass, bat_mass;
-  double length = 2.0 * radius;
+  double length = 2.0 * puck_radius;
 
   Vector2 acceleration(const State& s) const {
     const double sine = std::sin(s.q[0]), cosine = std::cos(s.q[0]), rate = s.rate[0], driven = bat_mass + driver_mass;
@@ -147,23 +147,23 @@ struct WedgeAtWall {
   Outcome truth() const {
     const State end = integrate(*this, {0.0, {std::asin(0.5), 0.0}, {0.0, 0.0}});
     const double sine = length * std::sin(end.q[0]), cosine = length * std::cos(end.q[0]), rate = end.rate[0];
-    Outcome outcome{end.time, {{radius, 1.0 + sine}, {radius, 1.0 - sine}, {radius + cosine, 1.0}}, {{0.0, cosine * rate}, {0.0, -cosine * rate}, {-sine * rate, 0.0}}};
+    Outcome outcome{end.time, {{puck_radius, 1.0 + sine}, {puck_radius, 1.0 - sine}, {puck_radius + cosine, 1.0}}, {{0.0, cosine * rate}, {0.0, -cosine * rate}, {-sine * rate, 0.0}}};
     outcome.fly_on(0.01, bat_mass, driver_mass);
     return outcome;
   }
   Outcome seen(const WorldSpec& spec, double until) const {
     World world(spec);
-    const BodyId above = world.add(puck_of(puck_mass, {radius, 1.0 + radius + crack})), below = world.add(puck_of(puck_mass, {radius, 1.0 - radius - crack}));
-    const PuckSpec driver = puck_of(driver_mass, {radius + std::sqrt(3.0) * radius + crack, 1.0});
+    const BodyId above = world.add(puck_of(puck_mass, {puck_radius, 1.0 + puck_radius + crack})), below = world.add(puck_of(puck_mass, {puck_radius, 1.0 - puck_radius - crack}));
+    const PuckSpec driver = puck_of(driver_mass, {puck_radius + std::sqrt(3.0) * puck_radius + crack, 1.0});
     const BodyId between = world.add(driver);
-    return drive(world, {above, below, between}, driving_bat(bat_mass, driver.position.x() + radius), until);
+    return drive(world, {above, below, between}, driving_bat(bat_mass, driver.position.x() + puck_radius), until);
   }
 };
 
 /// The same without the wall: x of the third puck and q are free. T = (M + n) x'^2/2 + m ((x' + l sin q q')^2 + (l cos q q')^2).
 struct FreeWedge {
   double puck_mass, driver_mass, bat_mass;
-  double length = 2.0 * radius;
+  double length = 2.0 * puck_radius;
 
   Vector2 acceleration(const State& s) const {
     const double sine = std::sin(s.q[1]), cosine = std::cos(s.q[1]), speed = s.rate[0], rate = s.rate[1], driven = bat_mass + driver_mass;
@@ -188,10 +188,10 @@ struct FreeWedge {
   }
   Outcome seen(const WorldSpec& spec, double until) const {
     World world(spec);
-    const double x = start_x - std::sqrt(3.0) * radius - crack;
-    const BodyId above = world.add(puck_of(puck_mass, {x, 1.0 + radius + crack})), below = world.add(puck_of(puck_mass, {x, 1.0 - radius - crack}));
+    const double x = start_x - std::sqrt(3.0) * puck_radius - crack;
+    const BodyId above = world.add(puck_of(puck_mass, {x, 1.0 + puck_radius + crack})), below = world.add(puck_of(puck_mass, {x, 1.0 - puck_radius - crack}));
     const BodyId between = world.add(puck_of(driver_mass, {start_x, 1.0}));
-    return drive(world, {above, below, between}, driving_bat(bat_mass, start_x + radius), until);
+    return drive(world, {above, below, between}, driving_bat(bat_mass, start_x + puck_radius), until);
   }
 };
 

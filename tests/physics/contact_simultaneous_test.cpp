@@ -9,11 +9,11 @@
 namespace rink::physics::test {
 namespace {
 
-constexpr double radius = 0.03125;  // a power of two, so that touching places are exact
+constexpr double dyadic_radius = 0.03125;  // a power of two, so that touching places are exact
 
-PuckSpec puck_at(const Vector2& position, const Vector2& velocity = {0.0, 0.0}, double mass = 1.0) {
+PuckSpec dyadic_puck_at(const Vector2& position, const Vector2& velocity = {0.0, 0.0}, double mass = 1.0) {
   PuckSpec puck;
-  puck.radius = radius;
+  puck.radius = dyadic_radius;
   puck.position = position;
   puck.velocity = velocity;
   puck.mass = mass;
@@ -27,7 +27,7 @@ std::vector<double> speeds_after_cradle(int count, int moving, double restitutio
   for (int i = 0; i < count; ++i) {
     const int place = is_reversed ? count - 1 - i : i;
     const bool is_moving = place < moving;
-    pucks[static_cast<std::size_t>(place)] = world.add(puck_at({1.0 + 2.0 * radius * place + (is_moving ? 0.0 : 0.5), 0.5}, {is_moving ? 1.0 : 0.0, 0.0}));
+    pucks[static_cast<std::size_t>(place)] = world.add(dyadic_puck_at({1.0 + 2.0 * dyadic_radius * place + (is_moving ? 0.0 : 0.5), 0.5}, {is_moving ? 1.0 : 0.0, 0.0}));
   }
   world.advance(0.75);
   std::vector<double> speeds;
@@ -61,8 +61,8 @@ TEST(Cradle, LosesSpeedFromBallToBallByTheRestitution) {
 TEST(Cradle, LeaningOnAWallThrowsTheBallBack) {
   World world(rink_of(4, 1));
   std::vector<BodyId> row;
-  for (int i = 0; i < 4; ++i) row.push_back(world.add(puck_at({radius + 2.0 * radius * i, 0.5})));
-  const BodyId ball = world.add(puck_at({1.0, 0.5}, {-1.0, 0.0}));
+  for (int i = 0; i < 4; ++i) row.push_back(world.add(dyadic_puck_at({dyadic_radius + 2.0 * dyadic_radius * i, 0.5})));
+  const BodyId ball = world.add(dyadic_puck_at({1.0, 0.5}, {-1.0, 0.0}));
   world.advance(1.5);
   EXPECT_NEAR(world.velocity(ball).x(), 1.0, 1e-12);
   for (const BodyId puck : row) EXPECT_NEAR(world.velocity(puck).norm(), 0.0, 1e-12);
@@ -74,9 +74,9 @@ TEST(Break, OneBallBetweenTwoFollowsTheFormula) {
     for (const bool are_first : {false, true}) {
       World world(rink_of(4, 2, e));
       BodyId cue, above, below;
-      const auto add_cue = [&] { cue = world.add(puck_at({0.5, 1.0}, {1.0, 0.0})); };
+      const auto add_cue = [&] { cue = world.add(dyadic_puck_at({0.5, 1.0}, {1.0, 0.0})); };
       if (!are_first) add_cue();
-      above = world.add(puck_at({1.0, 1.0 + radius})), below = world.add(puck_at({1.0, 1.0 - radius}));
+      above = world.add(dyadic_puck_at({1.0, 1.0 + dyadic_radius})), below = world.add(dyadic_puck_at({1.0, 1.0 - dyadic_radius}));
       if (are_first) add_cue();
       world.advance(0.75);
       const double impulse = (1.0 + e) * std::sqrt(0.75) / 2.5;
@@ -94,8 +94,8 @@ std::vector<BodyId> rack(World& world, int rows, double gap, std::mt19937_64* or
   std::vector<std::pair<std::size_t, PuckSpec>> pucks;
   for (int row = 0; row < rows; ++row)
     for (int i = 0; i <= row; ++i)
-      pucks.push_back({pucks.size(), puck_at({2.0 + row * std::sqrt(3.0) * (radius + 0.5 * gap), 1.0 + (2 * i - row) * (radius + 0.5 * gap)})});
-  pucks.push_back({pucks.size(), puck_at({1.0, 1.0}, {2.0, 0.0})});
+      pucks.push_back({pucks.size(), dyadic_puck_at({2.0 + row * std::sqrt(3.0) * (dyadic_radius + 0.5 * gap), 1.0 + (2 * i - row) * (dyadic_radius + 0.5 * gap)})});
+  pucks.push_back({pucks.size(), dyadic_puck_at({1.0, 1.0}, {2.0, 0.0})});
   if (order != nullptr) std::shuffle(pucks.begin(), pucks.end(), *order);
   std::vector<BodyId> ids(pucks.size());
   for (const auto& [place, puck] : pucks) ids[place] = world.add(puck);
@@ -149,8 +149,8 @@ TEST(Break, HitsFarApartAtOneInstantMeetInTheMiddle) {
     const std::vector<double> masses{1.0, 3.0, 0.2, 5.0, 0.2, 3.0, 1.0};
     for (int i = 0; i < 7; ++i) {
       const bool is_end = i == 0 || i == 6;
-      const double x = 2.0 + (i - 3) * (2.0 * radius + (is_end ? 0.125 : 0.0)), speed = is_end ? (3 - i) / 3.0 : 0.0;
-      row.push_back(world.add(puck_at({x, 0.5}, {speed, 0.0}, masses[static_cast<std::size_t>(i)])));
+      const double x = 2.0 + (i - 3) * (2.0 * dyadic_radius + (is_end ? 0.125 : 0.0)), speed = is_end ? (3 - i) / 3.0 : 0.0;
+      row.push_back(world.add(dyadic_puck_at({x, 0.5}, {speed, 0.0}, masses[static_cast<std::size_t>(i)])));
     }
     world.advance(0.5);
     for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(world.velocity(row[i]).x(), -world.velocity(row[6 - i]).x(), 1e-13) << e << " " << i;
@@ -160,11 +160,11 @@ TEST(Break, HitsFarApartAtOneInstantMeetInTheMiddle) {
 
 TEST(Break, RestingBallHitFromThreeSidesAtOnceStays) {
   World world(rink_of(4, 4));
-  const BodyId middle = world.add(puck_at({2.0, 2.0}));
+  const BodyId middle = world.add(dyadic_puck_at({2.0, 2.0}));
   std::vector<BodyId> others;
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * M_PI / 3.0 * i;
-    others.push_back(world.add(puck_at(Vector2(2.0, 2.0) + Vector2(std::cos(angle), std::sin(angle)), -Vector2(std::cos(angle), std::sin(angle)))));
+    others.push_back(world.add(dyadic_puck_at(Vector2(2.0, 2.0) + Vector2(std::cos(angle), std::sin(angle)), -Vector2(std::cos(angle), std::sin(angle)))));
   }
   world.advance(1.5);
   EXPECT_NEAR(world.velocity(middle).norm(), 0.0, 1e-12);
@@ -182,7 +182,7 @@ TEST(Row, BeforeABatIsHitAsOne) {
     bat.mass = 4.0;
     const BodyId hitting = world.add(bat);
     std::vector<BodyId> row;
-    for (int i = 0; i < 4; ++i) row.push_back(world.add(puck_at({1.5, 1.0 + 0.125 * (i - 1.5)})));
+    for (int i = 0; i < 4; ++i) row.push_back(world.add(dyadic_puck_at({1.5, 1.0 + 0.125 * (i - 1.5)})));
     world.advance(0.5);
     const double impulse = (1.0 + e) / (1.0 + 4 / 4.0);
     EXPECT_NEAR(world.velocity(hitting).x(), 1.0 - 4 * impulse / 4.0, 1e-13) << e;
@@ -192,9 +192,9 @@ TEST(Row, BeforeABatIsHitAsOne) {
 
 TEST(Corner, OfTwoWallsSendsThePuckBackTheWayItCame) {
   World world(rink_of(4, 2));
-  const BodyId puck = world.add(puck_at({1.0 + radius, 0.5 + radius}, {-2.0, -1.0}));
+  const BodyId puck = world.add(dyadic_puck_at({1.0 + dyadic_radius, 0.5 + dyadic_radius}, {-2.0, -1.0}));
   world.advance(1.0);
-  EXPECT_NEAR((world.position(puck) - Vector2(1.0 + radius, 0.5 + radius)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((world.position(puck) - Vector2(1.0 + dyadic_radius, 0.5 + dyadic_radius)).norm(), 0.0, 1e-14);
   EXPECT_NEAR((world.velocity(puck) - Vector2(2.0, 1.0)).norm(), 0.0, 1e-14);
 }
 
@@ -209,14 +209,14 @@ TEST(Cluster, OfAnyShapeAndMassesConservesMomentumAndGainsNoEnergy) {
     for (int tries = 0; places.size() < 15 && tries < 1000; ++tries) {
       // On the lattice of a rack, so that many touch several others.
       const double direction = M_PI / 3.0 * static_cast<double>(random() % 6);
-      const Vector2 next = places[random() % places.size()] + (2.0 * radius + 4e-16) * Vector2(std::cos(direction), std::sin(direction));
-      if (!world.is_free(next, radius)) continue;
-      if (std::any_of(places.begin(), places.end(), [&](const Vector2& place) { return (place - next).norm() < 2.0 * radius; })) continue;
+      const Vector2 next = places[random() % places.size()] + (2.0 * dyadic_radius + 4e-16) * Vector2(std::cos(direction), std::sin(direction));
+      if (!world.is_free(next, dyadic_radius)) continue;
+      if (std::any_of(places.begin(), places.end(), [&](const Vector2& place) { return (place - next).norm() < 2.0 * dyadic_radius; })) continue;
       places.push_back(next);
     }
-    for (const Vector2& place : places) world.add(puck_at(place, {0.0, 0.0}, std::pow(10.0, uniform(random, -spread, spread))));
+    for (const Vector2& place : places) world.add(dyadic_puck_at(place, {0.0, 0.0}, std::pow(10.0, uniform(random, -spread, spread))));
     const double angle = uniform(random, 0.0, 2.0 * M_PI);
-    world.add(puck_at(Vector2(4.0, 4.0) + 2.0 * Vector2(std::cos(angle), std::sin(angle)), -3.0 * Vector2(std::cos(angle), std::sin(angle)), 1.0));
+    world.add(dyadic_puck_at(Vector2(4.0, 4.0) + 2.0 * Vector2(std::cos(angle), std::sin(angle)), -3.0 * Vector2(std::cos(angle), std::sin(angle)), 1.0));
     const double energy = world.kinetic_energy();
     const Vector2 momentum = world.momentum();
     world.advance(0.8);
@@ -236,13 +236,13 @@ TEST(Cluster, OfAnyShapeAndMassesConservesMomentumAndGainsNoEnergy) {
 /// Between a wall and a ball 1e8 times heavier, a light ball that touches both would bounce 31,415 times in no time.
 TEST(Cluster, LightBallBetweenAHeavyOneAndTheWallTakesOneInstant) {
   World world(rink_of(8, 1));
-  const BodyId light = world.add(puck_at({radius, 0.5})), heavy = world.add(puck_at({1.0, 0.5}, {-1.0, 0.0}, 1e8));
+  const BodyId light = world.add(dyadic_puck_at({dyadic_radius, 0.5})), heavy = world.add(dyadic_puck_at({1.0, 0.5}, {-1.0, 0.0}, 1e8));
   const double energy = world.kinetic_energy();
   world.advance(2.0);
   EXPECT_NEAR(world.velocity(heavy).x(), 1.0, 1e-4);
   EXPECT_NEAR(world.kinetic_energy(), energy, 1e-9 * energy);
   EXPECT_LE(world.counters().events_at_once_max, 200u);
-  EXPECT_GE(world.position(light).x(), radius - 1e-12);
+  EXPECT_GE(world.position(light).x(), dyadic_radius - 1e-12);
 }
 
 TEST(Gas, WithoutSimultaneousContactsSolvesNone) {

@@ -11,10 +11,10 @@ namespace {
 
 using Real = long double;
 
-constexpr double friction = 2.0, bat_drag = 1.5;
+constexpr double friction = 2.0, slippery_bat_drag = 1.5;
 
 WorldSpec slippery(double restitution, double puck_drag = 0.0) {
-  WorldSpec spec = rink_of(20, 10, restitution, puck_drag, bat_drag);
+  WorldSpec spec = rink_of(20, 10, restitution, puck_drag, slippery_bat_drag);
   spec.puck_friction = friction;
   spec.accounts_energy = true;
   return spec;
@@ -54,7 +54,7 @@ TEST(PushedPuck, ObeysTheClosedFormOfTheWholeGroupWithoutEvents) {
       std::vector<BodyId> pucks;
       for (int k = 0; k < count; ++k) pucks.push_back(add_puck(world, 2.125 + 0.125 * k, 5));
       world.set_thrust(bat, {8, 0});
-      const double total = 1.0 + 0.5 * count, driving = (8.0 - 0.5 * count * friction) / total, drag = bat_drag / total, time = 1.5;
+      const double total = 1.0 + 0.5 * count, driving = (8.0 - 0.5 * count * friction) / total, drag = slippery_bat_drag / total, time = 1.5;
       world.advance(time);
       const double rounding = 1e-12 + 1e-8 * restitution;  // elastic contacts come to rest in a few bounces of less than v_c
       EXPECT_NEAR(world.velocity(pucks.back()).x(), speed_after(driving, drag, time), 100 * rounding);
@@ -83,7 +83,7 @@ TEST(PushedPuck, StandsStillUnderABatTooWeakToPushItAndCostsNothing) {
     EXPECT_EQ(world.position(far), Vector2(2.25, 5));
     world.set_thrust(bat, {2.5, 0});
     world.advance(1000.5);
-    EXPECT_NEAR(world.position(far).x() - 2.25, way_after(0.25, bat_drag / 2, 0.5), 1e-9);
+    EXPECT_NEAR(world.position(far).x() - 2.25, way_after(0.25, slippery_bat_drag / 2, 0.5), 1e-9);
     world.set_thrust(bat, {-1, 0});
     world.advance(1001.5);
     EXPECT_GT(world.position(near).x() - world.position(bat).x(), 0.1);
@@ -96,12 +96,12 @@ TEST(PushedPuck, LeavesABatThatDragSlowsMoreThanFrictionSlowsItAndStaysWithOneTh
   const BodyId bat = add_bat(world, 2, 5), puck = add_puck(world, 2.125, 5);
   world.set_thrust(bat, {9, 0});
   world.advance(1.0);
-  const double driving = (9.0 - 0.5 * friction) / 1.5, drag = bat_drag / 1.5, speed = speed_after(driving, drag, 1.0);
-  ASSERT_GT(bat_drag * speed, friction);
+  const double driving = (9.0 - 0.5 * friction) / 1.5, drag = slippery_bat_drag / 1.5, speed = speed_after(driving, drag, 1.0);
+  ASSERT_GT(slippery_bat_drag * speed, friction);
   world.set_thrust(bat, {0, 0});  // the bat brakes by g v > k: the puck is off at once
   world.advance(1.2);
   EXPECT_NEAR(world.velocity(puck).x(), speed - friction * 0.2, 1e-12);
-  EXPECT_NEAR(world.velocity(bat).x(), speed * std::exp(-bat_drag * 0.2), 1e-12);
+  EXPECT_NEAR(world.velocity(bat).x(), speed * std::exp(-slippery_bat_drag * 0.2), 1e-12);
   expect_balanced(world);
 
   World slow(slippery(0.0));
@@ -109,7 +109,7 @@ TEST(PushedPuck, LeavesABatThatDragSlowsMoreThanFrictionSlowsItAndStaysWithOneTh
   slow.set_thrust(slow_bat, {3, 0});
   slow.advance(1.0);
   const double left = speed_after((3.0 - 1.0) / 1.5, drag, 1.0);
-  ASSERT_LT(bat_drag * left, friction);
+  ASSERT_LT(slippery_bat_drag * left, friction);
   slow.set_thrust(slow_bat, {0, 0});  // dv/dt = -(M g v + m k)/(M + m): together to a stop
   const double brake = 0.5 * friction / 1.5, stop = std::log1p(drag * left / brake) / drag;
   slow.advance(1.0 + 0.5 * stop);
@@ -131,7 +131,7 @@ struct Pushed {
   void rates(const Real (&s)[4], Real (&r)[4]) const {
     const Real v = std::hypot(s[1], s[3]);
     r[0] = s[1], r[2] = s[3];
-    r[1] = (thrust - bat_drag * s[1] - mass * friction * s[1] / v) / (1 + mass);
+    r[1] = (thrust - slippery_bat_drag * s[1] - mass * friction * s[1] / v) / (1 + mass);
     r[3] = -friction * s[3] / v;
   }
   void advance(Real time, int steps) {

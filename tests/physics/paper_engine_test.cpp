@@ -4,11 +4,13 @@
 #include <array>
 
 #include "game/physics/simulator.h"
+#include "play.h"
 #include "scenes.h"
 
 namespace rink::physics {
 namespace {
 
+using test::play;
 using test::rink_of;
 using test::uniform;
 
@@ -16,12 +18,6 @@ constexpr std::array<const char*, 4> integrators{"euler", "semi_implicit", "verl
 
 std::unique_ptr<Simulator> paper(const WorldSpec& spec, const std::string& integrator, double dt) {
   return make_simulator(spec, {.engine = "paper", .integrator = integrator, .dt = dt});
-}
-
-/// Advances whatever goals fall.
-void play(Simulator& simulator, double until) {
-  while (simulator.advance(until)) {
-  }
 }
 
 /// How far a bat under thrust and drag is from its closed form after 1 s.

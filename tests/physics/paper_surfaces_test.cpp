@@ -5,17 +5,14 @@
 #include <cmath>
 
 #include "game/physics/simulator.h"
+#include "play.h"
 #include "scenes.h"
 
 namespace rink::physics {
 namespace {
 
+using test::play;
 using test::rink_of;
-
-void play(Simulator& simulator, double until) {
-  while (simulator.advance(until)) {
-  }
-}
 
 TEST(PapersEngineWithFriction, StopsAPuckWhereItShouldAsFramesShrink) {
   WorldSpec spec = rink_of(10.0, 2.0);

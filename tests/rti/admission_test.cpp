@@ -8,6 +8,7 @@
 #include "rig.h"
 #include "rti/admission/handshake.h"
 #include "rti/transport/guarded_transport.h"
+#include "tests/rti/seeded.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -20,13 +21,6 @@ const SharedKey& ours() {
 const SharedKey& another() {
   static const SharedKey key = key_of("a secret of somebody else");
   return key;
-}
-
-Nonce nonce_of(unsigned seed) {
-  std::mt19937 random(seed);
-  Nonce nonce;
-  for (std::byte& each : nonce) each = static_cast<std::byte>(random());
-  return nonce;
 }
 
 /// Two ends and what they have said.

@@ -51,8 +51,6 @@ TEST_P(Refused, EachReasonHasItsOwnText) {
 
 INSTANTIATE_TEST_SUITE_P(Over, Refused, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
 
-constexpr std::uint16_t vessel_number = 1;
-
 TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
   Bare bare;
   bare.execution.connect(1);

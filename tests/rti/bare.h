@@ -14,6 +14,8 @@
 
 namespace rink::rti::testing {
 
+inline const auto vessel_number = static_cast<std::uint16_t>(vessel.value);
+
 /// Frames as a stranger would make them.
 template <class... Messages>
 std::vector<std::byte> frame_of(Messages... messages) {

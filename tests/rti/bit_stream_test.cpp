@@ -6,27 +6,26 @@
 #include <random>
 
 #include "rti/wire/bit_stream.h"
+#include "tests/rti/seeded.h"
 
 namespace rink::rti::testing {
 namespace {
 
 /// A message of every kind of field, with one function for all three streams.
-struct Buoy {
+struct BuoyMessage {
   bool is_lit = false;
   std::int64_t depth = 0;                     ///< -11,000 to 9,000
   double bearing = 0.0, tide = 0.0, mass = 0.0;
   std::uint64_t visits = 0, serial = 0;
 };
 template <class Stream>
-bool exchange(Stream& stream, Buoy& buoy) {
+bool exchange(Stream& stream, BuoyMessage& buoy) {
   return stream.flag(buoy.is_lit) && stream.ranged(buoy.depth, -11'000, 9'000) && stream.quantised(buoy.bearing, 0.0, 360.0, 0.25) &&
          stream.quantised(buoy.tide, -20.0, 20.0, 1e-3) && stream.full(buoy.mass) && stream.golomb(buoy.visits, 3) && stream.bits(buoy.serial, 40);
 }
 
-double between(std::mt19937_64& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-
-Buoy random_buoy(std::mt19937_64& random) {
-  Buoy buoy;
+BuoyMessage random_buoy(std::mt19937_64& random) {
+  BuoyMessage buoy;
   buoy.is_lit = random() % 2 != 0;
   buoy.depth = static_cast<std::int64_t>(random() % 20'001) - 11'000;
   buoy.bearing = between(random, 0.0, 360.0);
@@ -42,7 +41,7 @@ TEST(BitStream, ReadsBackWhatWasWrittenInAsManyBitsAsWereMeasured) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::vector<std::byte> bytes(seed % 3);  // it may begin behind anything that ends with a byte
-    std::vector<Buoy> written;
+    std::vector<BuoyMessage> written;
     BitMeasurer measurer;
     {
       BitWriter writer(bytes);
@@ -53,8 +52,8 @@ TEST(BitStream, ReadsBackWhatWasWrittenInAsManyBitsAsWereMeasured) {
     }
     ASSERT_EQ(bytes.size(), seed % 3 + measurer.bytes());
     BitReader reader(Bytes(bytes).subspan(seed % 3));
-    for (const Buoy& buoy : written) {
-      Buoy read;
+    for (const BuoyMessage& buoy : written) {
+      BuoyMessage read;
       ASSERT_TRUE(exchange(reader, read));
       EXPECT_EQ(read.is_lit, buoy.is_lit);
       EXPECT_EQ(read.depth, buoy.depth);
@@ -156,7 +155,7 @@ TEST(BitStream, SurvivesHostileBytesAndWritesAgainWhatItAccepts) {
     std::vector<std::byte> bytes(random() % 40);
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() & random());
     BitReader reader(bytes);
-    Buoy read;
+    BuoyMessage read;
     if (!exchange(reader, read)) continue;
     std::vector<std::byte> again;
     {
@@ -172,7 +171,7 @@ TEST(BitStream, SurvivesHostileBytesAndWritesAgainWhatItAccepts) {
 
 TEST(BitStream, ReadsNothingFromFewerBits) {
   std::mt19937_64 random(5);
-  Buoy buoy = random_buoy(random);
+  BuoyMessage buoy = random_buoy(random);
   std::vector<std::byte> bytes;
   BitMeasurer measurer;
   exchange(measurer, buoy);
@@ -182,7 +181,7 @@ TEST(BitStream, ReadsNothingFromFewerBits) {
   }
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     BitReader reader(Bytes(bytes).first(size));
-    Buoy read;
+    BuoyMessage read;
     ASSERT_FALSE(exchange(reader, read)) << size << " of " << bytes.size() << " bytes";
   }
 }

@@ -21,9 +21,9 @@ FederationServices small_marks() {
 }
 
 /// A harbour master who moves vessels, and a watcher who may stop reading, each in process on an endpoint of its own.
-class Harbour {
+class DozingHarbour {
  public:
-  explicit Harbour(FederationServices services = small_marks()) : execution_(harbour(), {}, services), host_(execution_) {
+  explicit DozingHarbour(FederationServices services = small_marks()) : execution_(harbour(), {}, services), host_(execution_) {
     server_.listen("rti");
     host_.add(server_);
     master = &join("master"), steady = &join("steady"), dozing = &join("dozing");
@@ -99,7 +99,7 @@ TEST(NewestState, HoldsBackAboveOneMarkUntilBelowTheOther) {
 }
 
 TEST(Buffering, OneWhoStoppedReadingForAThousandTicksHearsTheNewestStateOnce) {
-  Harbour scene;
+  DozingHarbour scene;
   std::vector<ObjectHandle> vessels;
   for (int i = 0; i < 20; ++i) vessels.push_back(scene.master->ambassador.register_object_instance(vessel));
   for (const ObjectHandle each : vessels) scene.move(each, 1.0f);
@@ -127,7 +127,7 @@ TEST(Buffering, OneWhoStoppedReadingForAThousandTicksHearsTheNewestStateOnce) {
 }
 
 TEST(Buffering, InteractionsDiscoveriesAndRemovalsReachOneWhoStoppedReadingInTheirOrder) {
-  Harbour scene;
+  DozingHarbour scene;
   const ObjectHandle first = scene.master->ambassador.register_object_instance(vessel);
   scene.dozing->is_reading = false;
   std::vector<std::pair<std::uint32_t, std::string>> said;
@@ -158,7 +158,7 @@ TEST(Buffering, RandomReadersAllEndWithTheNewestState) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    Harbour scene;
+    DozingHarbour scene;
     std::vector<ObjectHandle> vessels;
     for (int tick = 1; tick <= 200; ++tick) {
       for (auto* each : {scene.steady, scene.dozing}) {
@@ -210,7 +210,7 @@ class EveryThird final : public Buffering {
 TEST(Buffering, IsReplaceableByAUsersOwn) {
   FederationServices services;
   services.buffering = [] { return std::make_unique<EveryThird>(); };
-  Harbour scene(services);
+  DozingHarbour scene(services);
   const ObjectHandle object = scene.master->ambassador.register_object_instance(vessel);
   for (int tick = 1; tick <= 30; ++tick) {
     scene.move(object, static_cast<float>(tick));

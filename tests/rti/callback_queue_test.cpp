@@ -34,10 +34,10 @@ TEST(CallbackQueue, KnowsEveryCallbackThatAFederateHas) {
 }
 
 /// Two ambassadors that hear the same bytes, one in each model.
-struct Pair {
+struct TwoModels {
   Recorder heard_now, heard_late;
   Ambassador now{harbour(), heard_now}, late{harbour(), heard_late, {}, CallbackModel::evoked};
-  Pair() {
+  TwoModels() {
     for (Ambassador* each : {&now, &late}) each->join("rink", "pair", "tester");
   }
   template <class... Messages>
@@ -48,7 +48,7 @@ struct Pair {
 };
 
 TEST(CallbackQueue, EvokedOneByOneTheyAreThoseOfTheImmediateModelInTheirOrder) {
-  Pair pair;
+  TwoModels pair;
   const auto tag = bytes_of("tag"), words = bytes_of("ahoy");
   const std::vector<FederateHandle> failed{{3}, {5}};
   pair.tell(JoinedMessage{4, 1});

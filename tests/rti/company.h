@@ -8,21 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
-
-inline const AttributeSet motion{position, speed};
-
-/// The standard's name for what `service` throws; none if it does not.
-HlaError error_thrown_by(const auto& service) {
-  try {
-    service();
-  } catch (const RtiException& exception) {
-    return exception.error();
-  }
-  return HlaError::none;
-}
 
 /// `Heard` is a `Recorder` that writes what matters to the test into `told`.
 template <class Heard>

@@ -30,11 +30,11 @@ struct Advised : Recorder {
   }
 };
 
-using Harbour = Company<Advised>;
+using AdvisedCompany = Company<Advised>;
 
 // 5.10, 5.11
 TEST(Conformance, RegistrationIsAdvisedWhileAnAttributeThatIsPublishedIsActivelySubscribedByAnother) {
-  Harbour here;
+  AdvisedCompany here;
   here.pilot.publish_object_class_attributes(vessel, AttributeSet{position});
   here.pilot.subscribe_object_class_attributes(vessel, motion);
   EXPECT_THAT(here.told(here.pilot_heard), IsEmpty()) << "its own subscription is none of another";
@@ -50,7 +50,7 @@ TEST(Conformance, RegistrationIsAdvisedWhileAnAttributeThatIsPublishedIsActively
 
 // 5.10
 TEST(Conformance, ASubscriptionToASuperclassCountsForItsSubclasses) {
-  Harbour here;
+  AdvisedCompany here;
   here.coast.subscribe_object_class_attributes(vessel, motion);
   here.settle();
   here.pilot.publish_object_class_attributes(ferry, AttributeSet{speed});
@@ -61,7 +61,7 @@ TEST(Conformance, ASubscriptionToASuperclassCountsForItsSubclasses) {
 
 // 5.10, 5.12
 TEST(Conformance, AFederateThatLeavesOrIsLostListensNoLonger) {
-  Harbour here;
+  AdvisedCompany here;
   Ambassador& third = here.join("third");
   here.pilot.publish_object_class_attributes(vessel, motion);
   here.pilot.publish_interaction_class(mayday);
@@ -78,7 +78,7 @@ TEST(Conformance, AFederateThatLeavesOrIsLostListensNoLonger) {
 
 // 5.12, 5.13
 TEST(Conformance, InteractionsAreTurnedOnWhileTheClassOrASuperclassIsActivelySubscribedByAnother) {
-  Harbour here;
+  AdvisedCompany here;
   here.pilot.publish_interaction_class(hail);
   here.pilot.publish_interaction_class(mayday);
   EXPECT_THAT(here.told(here.pilot_heard), IsEmpty());
@@ -94,7 +94,7 @@ TEST(Conformance, InteractionsAreTurnedOnWhileTheClassOrASuperclassIsActivelySub
 
 // 5.6, 5.8, 9.8, 9.10
 TEST(Conformance, APassiveSubscriptionHearsAllAndAdvisesNobody) {
-  Harbour here;
+  AdvisedCompany here;
   here.pilot.publish_object_class_attributes(vessel, motion);
   here.pilot.publish_interaction_class(hail);
   const RegionHandle region = here.coast.create_region();
@@ -120,7 +120,7 @@ TEST(Conformance, APassiveSubscriptionHearsAllAndAdvisesNobody) {
 
 // 10.27, 10.28, 10.33, 10.34
 TEST(Conformance, WhileASwitchIsOffItsAdvisoriesAreNotTold) {
-  Harbour here;
+  AdvisedCompany here;
   here.pilot.publish_object_class_attributes(vessel, motion);
   here.pilot.publish_interaction_class(hail);
   here.pilot.disable_object_class_relevance_advisory_switch();
@@ -135,7 +135,7 @@ TEST(Conformance, WhileASwitchIsOffItsAdvisoriesAreNotTold) {
 
 // 10.27 to 10.34
 TEST(Conformance, ASwitchThatIsSoAlreadyIsRefusedByItsName) {
-  Harbour here;
+  AdvisedCompany here;
   EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_object_class_relevance_advisory_switch(); }), HlaError::object_class_relevance_advisory_switch_is_on);
   EXPECT_EQ(error_thrown_by([&] { here.pilot.disable_attribute_relevance_advisory_switch(); }), HlaError::attribute_relevance_advisory_switch_is_off);
   EXPECT_EQ(error_thrown_by([&] { here.pilot.enable_attribute_scope_advisory_switch(); }), HlaError::attribute_scope_advisory_switch_is_on);
@@ -148,7 +148,7 @@ TEST(Conformance, ASwitchThatIsSoAlreadyIsRefusedByItsName) {
 
 // 10.31, 10.32
 TEST(Conformance, WithoutTheScopeAdvisoryValuesComeAllTheSame) {
-  Harbour here;
+  AdvisedCompany here;
   here.pilot.publish_object_class_attributes(vessel, motion);
   here.coast.disable_attribute_scope_advisory_switch();
   here.coast.subscribe_object_class_attributes(vessel, motion);
@@ -162,7 +162,7 @@ TEST(Conformance, WithoutTheScopeAdvisoryValuesComeAllTheSame) {
 
 // 5.2, 5.4, 5.6, 5.8
 TEST(Conformance, ClassesAndAttributesThatAreNoneAreRefusedByTheirNames) {
-  Harbour here;
+  AdvisedCompany here;
   const ObjectClassHandle nothing{99};
   const InteractionClassHandle silence{99};
   EXPECT_EQ(error_thrown_by([&] { here.pilot.subscribe_object_class_attributes(nothing, motion); }), HlaError::object_class_not_defined);
@@ -178,7 +178,7 @@ TEST(Conformance, UpdatesOfAnObjectAreTurnedOnWhileItsAttributesAreInTheScopeOfA
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     const auto below = [&random](std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); };
-    Harbour here;
+    AdvisedCompany here;
     here.join("third");
     here.pilot.publish_object_class_attributes(vessel, motion);
     std::array<std::array<RegionHandle, 2>, 3> regions;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/wire/federation_messages.h"
+#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -12,20 +13,11 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Not;
 
-HlaError error_of(const auto& service) {
-  try {
-    service();
-  } catch (const RtiException& exception) {
-    return exception.error();
-  }
-  return HlaError::none;
-}
-
 // 4.9
 TEST(Conformance, AFederateThatHasJoinedMayNotJoinAgain) {
   Rig rig(Carrier::in_process);
   Station& station = rig.join("once");
-  EXPECT_EQ(error_of([&] { station.ambassador.join("rink", "twice", "tester"); }), HlaError::federate_already_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.join("rink", "twice", "tester"); }), HlaError::federate_already_execution_member);
 }
 
 // 4.9
@@ -39,11 +31,11 @@ TEST(Conformance, AFederateNameIsUniqueWithinTheFederationExecution) {
 TEST(Conformance, AFederateThatIsNotJoinedMayUseNoServiceOfAMember) {
   Rig rig(Carrier::in_process);
   Station& station = rig.connect();
-  EXPECT_EQ(error_of([&] { station.ambassador.register_synchronization_point("start"); }), HlaError::federate_not_execution_member);
-  EXPECT_EQ(error_of([&] { station.ambassador.synchronization_point_achieved("start"); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.register_synchronization_point("start"); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { station.ambassador.synchronization_point_achieved("start"); }), HlaError::federate_not_execution_member);
   Station& gone = rig.join("gone");
   gone.ambassador.resign();
-  EXPECT_EQ(error_of([&] { gone.ambassador.watch_federates(); }), HlaError::federate_not_execution_member);
+  EXPECT_EQ(error_thrown_by([&] { gone.ambassador.watch_federates(); }), HlaError::federate_not_execution_member);
 }
 
 // 4.11, 4.12
@@ -125,7 +117,7 @@ TEST(Conformance, APointWithoutASetIsAnnouncedToThoseWhoJoinBeforeItIsReached) {
 TEST(Conformance, ALabelThatIsNotAnnouncedCannotBeAchieved) {
   Rig rig(Carrier::in_process);
   Station& a = rig.join("a");
-  EXPECT_EQ(error_of([&] { a.ambassador.synchronization_point_achieved("start"); }), HlaError::synchronization_point_label_not_announced);
+  EXPECT_EQ(error_thrown_by([&] { a.ambassador.synchronization_point_achieved("start"); }), HlaError::synchronization_point_label_not_announced);
   EXPECT_TRUE(a.ambassador.is_joined());
 }
 

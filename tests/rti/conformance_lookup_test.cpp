@@ -2,19 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
 namespace {
-
-HlaError error_of(const auto& service) {
-  try {
-    service();
-  } catch (const RtiException& exception) {
-    return exception.error();
-  }
-  return HlaError::none;
-}
 
 struct Lookup : ::testing::Test {
   Recorder heard;
@@ -45,37 +37,37 @@ TEST_F(Lookup, AClassIsToldByItsQualifiedNameAndFoundByEither) {
 }
 
 TEST_F(Lookup, ANameOfNothingIsNotFound) {
-  EXPECT_EQ(error_of([&] { ambassador.get_object_class_handle("Submarine"); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { ambassador.get_attribute_handle(vessel, "destination"); }), HlaError::name_not_found) << "an attribute of a subclass only";
-  EXPECT_EQ(error_of([&] { ambassador.get_interaction_class_handle(""); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { ambassador.get_parameter_handle(hail, "volume"); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { ambassador.get_dimension_handle("Z"); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { ambassador.get_federate_handle("nobody"); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { Ambassador::get_transportation_type("HLApigeon"); }), HlaError::name_not_found);
-  EXPECT_EQ(error_of([&] { Ambassador::get_order_type("Alphabetical"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_object_class_handle("Submarine"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_attribute_handle(vessel, "destination"); }), HlaError::name_not_found) << "an attribute of a subclass only";
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_interaction_class_handle(""); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_parameter_handle(hail, "volume"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_dimension_handle("Z"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_federate_handle("nobody"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { Ambassador::get_transportation_type("HLApigeon"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { Ambassador::get_order_type("Alphabetical"); }), HlaError::name_not_found);
 }
 
 TEST_F(Lookup, AHandleOfNothingIsRefusedByWhatItShouldHaveBeen) {
-  EXPECT_EQ(error_of([&] { ambassador.get_object_class_name({99}); }), HlaError::object_class_not_defined);
-  EXPECT_EQ(error_of([&] { ambassador.get_attribute_name(vessel, destination); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_of([&] { ambassador.get_interaction_class_name({}); }), HlaError::interaction_class_not_defined);
-  EXPECT_EQ(error_of([&] { ambassador.get_parameter_name(hail, {1}); }), HlaError::interaction_parameter_not_defined);
-  EXPECT_EQ(error_of([&] { ambassador.get_dimension_name({9}); }), HlaError::invalid_dimension_handle);
-  EXPECT_EQ(error_of([&] { ambassador.get_known_object_class_handle({5}); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_object_class_name({99}); }), HlaError::object_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_attribute_name(vessel, destination); }), HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_interaction_class_name({}); }), HlaError::interaction_class_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_parameter_name(hail, {1}); }), HlaError::interaction_parameter_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_dimension_name({9}); }), HlaError::invalid_dimension_handle);
+  EXPECT_EQ(error_thrown_by([&] { ambassador.get_known_object_class_handle({5}); }), HlaError::object_instance_not_known);
 }
 
 TEST(LookupOfFederates, KnowsOneselfAndAfterWatchingThoseWhoAreThere) {
   Rig rig(Carrier::in_process);
   Station &a = rig.join("a"), &b = rig.join("b");
   EXPECT_EQ(a.ambassador.get_federate_handle("a"), a.ambassador.federate());
-  EXPECT_EQ(error_of([&] { a.ambassador.get_federate_handle("b"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { a.ambassador.get_federate_handle("b"); }), HlaError::name_not_found);
   a.ambassador.watch_federates();
   rig.settle();
   EXPECT_EQ(a.ambassador.get_federate_handle("b"), b.ambassador.federate());
   EXPECT_EQ(a.ambassador.get_federate_name(b.ambassador.federate()), "b");
   b.ambassador.resign();
   rig.settle();
-  EXPECT_EQ(error_of([&] { a.ambassador.get_federate_name(b.ambassador.federate()); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { a.ambassador.get_federate_name(b.ambassador.federate()); }), HlaError::name_not_found);
 }
 
 }  // namespace

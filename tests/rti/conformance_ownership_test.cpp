@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -13,19 +14,19 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using Note = Recorder::OwnershipNote;
 
-const AttributeSet both{position, speed}, privilege{privilege_to_delete_object}, all{position, speed, privilege_to_delete_object};
+const AttributeSet privilege{privilege_to_delete_object};
 
 /// Two pilots who publish and hear of vessels, and one who only looks; the first has registered a vessel that all know.
-struct Harbour {
+struct SharedVessel {
   Rig rig{Carrier::in_process};
   Station& taker = rig.join("taker");  // whose words arrive first
   Station& owner = rig.join("owner");
   Station& looker = rig.join("looker");
   ObjectHandle vessel_1;
 
-  Harbour() {
-    for (Station* each : {&owner, &taker, &looker}) each->ambassador.subscribe_object_class_attributes(vessel, both);
-    for (Station* each : {&owner, &taker}) each->ambassador.publish_object_class_attributes(vessel, both);
+  SharedVessel() {
+    for (Station* each : {&owner, &taker, &looker}) each->ambassador.subscribe_object_class_attributes(vessel, motion);
+    for (Station* each : {&owner, &taker}) each->ambassador.publish_object_class_attributes(vessel, motion);
     vessel_1 = owner.ambassador.register_object_instance(vessel);
     rig.settle();
   }
@@ -55,30 +56,18 @@ struct Harbour {
   }
 };
 
-/// The error that a service named, or none.
-template <class Service>
-HlaError error_of(Service service) {
-  try {
-    service();
-  } catch (const RtiException& error) {
-    EXPECT_THAT(std::string(error.what()), ::testing::StartsWith(to_string(error.error())));
-    return error.error();
-  }
-  return HlaError::none;
-}
-
 // 7.1
 TEST(Conformance, AnInstanceAttributeIsOwnedByTheFederateThatRegisteredItsObjectAndSoIsThePrivilegeToDelete) {
-  Harbour harbour;
-  EXPECT_TRUE(harbour.owns(harbour.owner, all));
-  EXPECT_TRUE(harbour.owns_none(harbour.taker, all));
+  SharedVessel harbour;
+  EXPECT_TRUE(harbour.owns(harbour.owner, whole_vessel));
+  EXPECT_TRUE(harbour.owns_none(harbour.taker, whole_vessel));
   EXPECT_EQ(harbour.owner_by_query(harbour.looker, position), harbour.owner.ambassador.federate().value);
   EXPECT_EQ(*testing::harbour().attribute(vessel, "HLAprivilegeToDeleteObject"), privilege_to_delete_object);
 }
 
 // 7.2
 TEST(Conformance, AfterUnconditionalDivestitureNobodyOwnsTheAttributesAndThoseWhoMayAreAskedToAssumeThem) {
-  Harbour harbour;
+  SharedVessel harbour;
   harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, AttributeSet{speed});
   EXPECT_TRUE(harbour.owns_none(harbour.owner, AttributeSet{speed})) << "ownership is gone with the call";
   harbour.rig.settle();
@@ -90,26 +79,26 @@ TEST(Conformance, AfterUnconditionalDivestitureNobodyOwnsTheAttributesAndThoseWh
 
 // 7.3, 7.4, 7.5, 7.6, 7.7
 TEST(Conformance, NegotiatedDivestitureEndsWithTheConfirmationAndUntilThenItsOwnerOwns) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& owner = harbour.owner.ambassador;
-  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, both, bytes_of("take it"));
+  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion, bytes_of("take it"));
   harbour.rig.settle();
-  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("assume", both, "take it")));
-  EXPECT_TRUE(harbour.owns(harbour.owner, both));
-  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both, bytes_of("gladly"));
+  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("assume", motion, "take it")));
+  EXPECT_TRUE(harbour.owns(harbour.owner, motion));
+  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion, bytes_of("gladly"));
   harbour.rig.settle();
-  EXPECT_THAT(harbour.owner.heard.ownership, ElementsAre(harbour.note("confirm", both)));
-  EXPECT_TRUE(harbour.owns(harbour.owner, both)) << "asked is not divested";
-  EXPECT_TRUE(harbour.owns_none(harbour.taker, both));
-  harbour.update(harbour.owner, both, values_of(1.0f, 2.0f, 3.0f));
-  owner.confirm_divestiture(harbour.vessel_1, both, bytes_of("with care"));
-  EXPECT_TRUE(harbour.owns_none(harbour.owner, both));
+  EXPECT_THAT(harbour.owner.heard.ownership, ElementsAre(harbour.note("confirm", motion)));
+  EXPECT_TRUE(harbour.owns(harbour.owner, motion)) << "asked is not divested";
+  EXPECT_TRUE(harbour.owns_none(harbour.taker, motion));
+  harbour.update(harbour.owner, motion, values_of(1.0f, 2.0f, 3.0f));
+  owner.confirm_divestiture(harbour.vessel_1, motion, bytes_of("with care"));
+  EXPECT_TRUE(harbour.owns_none(harbour.owner, motion));
   harbour.rig.settle();
-  EXPECT_TRUE(harbour.owns(harbour.taker, both));
-  EXPECT_EQ(harbour.taker.heard.ownership.back(), harbour.note("acquired", both, "with care"));
+  EXPECT_TRUE(harbour.owns(harbour.taker, motion));
+  EXPECT_EQ(harbour.taker.heard.ownership.back(), harbour.note("acquired", motion, "with care"));
   EXPECT_EQ(harbour.taker.heard.objects.at(harbour.vessel_1.value).values.at(speed.value), values_of(3.0f)) << "what was said before the hand-over has arrived";
   EXPECT_EQ(harbour.owner_by_query(harbour.looker, position), harbour.taker.ambassador.federate().value);
-  harbour.update(harbour.taker, both, values_of(4.0f, 5.0f, 6.0f));
+  harbour.update(harbour.taker, motion, values_of(4.0f, 5.0f, 6.0f));
   harbour.rig.settle();
   EXPECT_EQ(harbour.looker.heard.objects.at(harbour.vessel_1.value).values.at(speed.value), values_of(6.0f));
   EXPECT_EQ(harbour.owner.heard.objects.at(harbour.vessel_1.value).values.at(speed.value), values_of(6.0f)) << "who gave it away hears of it now";
@@ -118,10 +107,10 @@ TEST(Conformance, NegotiatedDivestitureEndsWithTheConfirmationAndUntilThenItsOwn
 
 // 7.8
 TEST(Conformance, AcquisitionOfUnownedAttributesIsNotifiedAndOfOwnedOnesAsksTheirOwnerToReleaseThem) {
-  Harbour harbour;
+  SharedVessel harbour;
   harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, AttributeSet{speed});
   harbour.rig.settle();
-  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both, bytes_of("please"));
+  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion, bytes_of("please"));
   harbour.rig.settle();
   EXPECT_TRUE(harbour.owns(harbour.taker, AttributeSet{speed}));
   EXPECT_THAT(harbour.owner.heard.ownership, ElementsAre(harbour.note("release", AttributeSet{position}, "please")));
@@ -130,31 +119,31 @@ TEST(Conformance, AcquisitionOfUnownedAttributesIsNotifiedAndOfOwnedOnesAsksThei
 
 // 7.9, 7.10
 TEST(Conformance, AcquisitionIfAvailableOfWhatIsOwnedIsUnavailableAndItsOwnerIsNotAsked) {
-  Harbour harbour;
-  harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, both);
-  EXPECT_EQ(error_of([&] { harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, both); }), HlaError::attribute_already_being_acquired);
+  SharedVessel harbour;
+  harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, motion);
+  EXPECT_EQ(error_thrown_by([&] { harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, motion); }), HlaError::attribute_already_being_acquired);
   harbour.rig.settle();
-  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("unavailable", both)));
+  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("unavailable", motion)));
   EXPECT_THAT(harbour.owner.heard.ownership, IsEmpty());
 }
 
 // 7.12
 TEST(Conformance, ReleaseDeniedEndsTheAcquisitionAsUnavailable) {
-  Harbour harbour;
-  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both);
+  SharedVessel harbour;
+  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion);
   harbour.rig.settle();
-  harbour.owner.ambassador.attribute_ownership_release_denied(harbour.vessel_1, both);
+  harbour.owner.ambassador.attribute_ownership_release_denied(harbour.vessel_1, motion);
   harbour.rig.settle();
-  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("unavailable", both)));
-  EXPECT_TRUE(harbour.owns(harbour.owner, all));
+  EXPECT_THAT(harbour.taker.heard.ownership, ElementsAre(harbour.note("unavailable", motion)));
+  EXPECT_TRUE(harbour.owns(harbour.owner, whole_vessel));
 }
 
 // 7.13
 TEST(Conformance, DivestitureIfWantedGivesAwayWhatIsBeingAcquiredAndNothingElse) {
-  Harbour harbour;
+  SharedVessel harbour;
   harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, AttributeSet{speed});
   harbour.rig.settle();
-  harbour.owner.ambassador.attribute_ownership_divestiture_if_wanted(harbour.vessel_1, all);
+  harbour.owner.ambassador.attribute_ownership_divestiture_if_wanted(harbour.vessel_1, whole_vessel);
   harbour.rig.settle();
   EXPECT_THAT(harbour.owner.heard.ownership, Contains(harbour.note("divested", AttributeSet{speed})));
   EXPECT_THAT(harbour.owner.heard.ownership, Contains(harbour.note("kept", AttributeSet{position, privilege_to_delete_object})));
@@ -164,96 +153,96 @@ TEST(Conformance, DivestitureIfWantedGivesAwayWhatIsBeingAcquiredAndNothingElse)
 
 // 7.14
 TEST(Conformance, ACancelledNegotiatedDivestitureLeavesTheAttributesWithTheirOwner) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& owner = harbour.owner.ambassador;
-  EXPECT_EQ(error_of([&] { owner.cancel_negotiated_attribute_ownership_divestiture(harbour.vessel_1, both); }), HlaError::attribute_divestiture_was_not_requested);
-  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, both);
+  EXPECT_EQ(error_thrown_by([&] { owner.cancel_negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion); }), HlaError::attribute_divestiture_was_not_requested);
+  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion);
   harbour.rig.settle();
-  harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, both);
+  harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, motion);
   harbour.rig.settle();
-  owner.cancel_negotiated_attribute_ownership_divestiture(harbour.vessel_1, both);
+  owner.cancel_negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion);
   harbour.rig.settle();
-  EXPECT_EQ(harbour.taker.heard.ownership.back(), harbour.note("unavailable", both));
-  EXPECT_TRUE(harbour.owns(harbour.owner, all));
+  EXPECT_EQ(harbour.taker.heard.ownership.back(), harbour.note("unavailable", motion));
+  EXPECT_TRUE(harbour.owns(harbour.owner, whole_vessel));
 }
 
 // 7.15, 7.16
 TEST(Conformance, ACancelledAcquisitionIsConfirmedUnlessTheAttributesWereAcquiredMeanwhile) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& taker = harbour.taker.ambassador;
-  EXPECT_EQ(error_of([&] { taker.cancel_attribute_ownership_acquisition(harbour.vessel_1, both); }), HlaError::attribute_acquisition_was_not_requested);
-  taker.attribute_ownership_acquisition(harbour.vessel_1, both);
+  EXPECT_EQ(error_thrown_by([&] { taker.cancel_attribute_ownership_acquisition(harbour.vessel_1, motion); }), HlaError::attribute_acquisition_was_not_requested);
+  taker.attribute_ownership_acquisition(harbour.vessel_1, motion);
   harbour.rig.settle();
   taker.cancel_attribute_ownership_acquisition(harbour.vessel_1, AttributeSet{speed});
   harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, AttributeSet{position});
   harbour.rig.settle();
   EXPECT_THAT(harbour.taker.heard.ownership, Contains(harbour.note("cancelled", AttributeSet{speed})));
   EXPECT_TRUE(harbour.owns(harbour.taker, AttributeSet{position}));
-  EXPECT_EQ(error_of([&] { taker.cancel_attribute_ownership_acquisition(harbour.vessel_1, AttributeSet{position}); }), HlaError::attribute_already_owned);
+  EXPECT_EQ(error_thrown_by([&] { taker.cancel_attribute_ownership_acquisition(harbour.vessel_1, AttributeSet{position}); }), HlaError::attribute_already_owned);
 }
 
 // 7.6: NoAcquisitionPending, where the other's cancellation crossed the confirmation
 TEST(Conformance, AConfirmationThatComesAfterTheOtherCancelledGivesTheAttributesBack) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& owner = harbour.owner.ambassador;
-  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, both);
-  EXPECT_EQ(error_of([&] { owner.confirm_divestiture(harbour.vessel_1, both); }), HlaError::no_acquisition_pending);
-  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both);
+  owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion);
+  EXPECT_EQ(error_thrown_by([&] { owner.confirm_divestiture(harbour.vessel_1, motion); }), HlaError::no_acquisition_pending);
+  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion);
   harbour.rig.settle();
-  harbour.taker.ambassador.cancel_attribute_ownership_acquisition(harbour.vessel_1, both);
+  harbour.taker.ambassador.cancel_attribute_ownership_acquisition(harbour.vessel_1, motion);
   harbour.rig.settle();
-  owner.confirm_divestiture(harbour.vessel_1, both);
+  owner.confirm_divestiture(harbour.vessel_1, motion);
   harbour.rig.settle();
-  EXPECT_EQ(harbour.owner.heard.ownership.back(), harbour.note("kept", both));
-  EXPECT_TRUE(harbour.owns(harbour.owner, all));
-  EXPECT_EQ(error_of([&] { owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, both); }), HlaError::attribute_already_being_divested) << "still on offer";
+  EXPECT_EQ(harbour.owner.heard.ownership.back(), harbour.note("kept", motion));
+  EXPECT_TRUE(harbour.owns(harbour.owner, whole_vessel));
+  EXPECT_EQ(error_thrown_by([&] { owner.negotiated_attribute_ownership_divestiture(harbour.vessel_1, motion); }), HlaError::attribute_already_being_divested) << "still on offer";
   EXPECT_EQ(harbour.drop_count(), 0u);
 }
 
 // 7.2 c), 7.3 c), 7.6, 7.8, 7.12: preconditions
 TEST(Conformance, EachServiceNamesWhatItsPreconditionsMiss) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& owner = harbour.owner.ambassador;
   Ambassador& taker = harbour.taker.ambassador;
   Ambassador& looker = harbour.looker.ambassador;
   const ObjectHandle known = harbour.vessel_1, unknown{12345};
   const std::size_t said = taker.outgoing().size();
-  EXPECT_EQ(error_of([&] { taker.unconditional_attribute_ownership_divestiture(unknown, both); }), HlaError::object_instance_not_known);
-  EXPECT_EQ(error_of([&] { taker.unconditional_attribute_ownership_divestiture(known, AttributeSet{destination}); }), HlaError::attribute_not_defined);
-  EXPECT_EQ(error_of([&] { taker.unconditional_attribute_ownership_divestiture(known, both); }), HlaError::attribute_not_owned);
-  EXPECT_EQ(error_of([&] { taker.negotiated_attribute_ownership_divestiture(known, both); }), HlaError::attribute_not_owned);
-  EXPECT_EQ(error_of([&] { taker.attribute_ownership_release_denied(known, both); }), HlaError::attribute_not_owned);
-  EXPECT_EQ(error_of([&] { taker.update_attribute_values(known, both, values_of(1.0f, 2.0f, 3.0f), {}); }), HlaError::attribute_not_owned);
-  EXPECT_EQ(error_of([&] { taker.delete_object_instance(known); }), HlaError::delete_privilege_not_held);
+  EXPECT_EQ(error_thrown_by([&] { taker.unconditional_attribute_ownership_divestiture(unknown, motion); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { taker.unconditional_attribute_ownership_divestiture(known, AttributeSet{destination}); }), HlaError::attribute_not_defined);
+  EXPECT_EQ(error_thrown_by([&] { taker.unconditional_attribute_ownership_divestiture(known, motion); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { taker.negotiated_attribute_ownership_divestiture(known, motion); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { taker.attribute_ownership_release_denied(known, motion); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { taker.update_attribute_values(known, motion, values_of(1.0f, 2.0f, 3.0f), {}); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { taker.delete_object_instance(known); }), HlaError::delete_privilege_not_held);
   EXPECT_EQ(taker.outgoing().size(), said) << "nothing is sent of what is refused";
-  EXPECT_EQ(error_of([&] { owner.confirm_divestiture(known, both); }), HlaError::attribute_divestiture_was_not_requested);
-  EXPECT_EQ(error_of([&] { owner.attribute_ownership_acquisition(known, both); }), HlaError::federate_owns_attributes);
-  EXPECT_EQ(error_of([&] { looker.attribute_ownership_acquisition(known, both); }), HlaError::object_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] { owner.confirm_divestiture(known, motion); }), HlaError::attribute_divestiture_was_not_requested);
+  EXPECT_EQ(error_thrown_by([&] { owner.attribute_ownership_acquisition(known, motion); }), HlaError::federate_owns_attributes);
+  EXPECT_EQ(error_thrown_by([&] { looker.attribute_ownership_acquisition(known, motion); }), HlaError::object_class_not_published);
   looker.publish_object_class_attributes(vessel, AttributeSet{speed});
-  EXPECT_EQ(error_of([&] { looker.attribute_ownership_acquisition(known, both); }), HlaError::attribute_not_published);
+  EXPECT_EQ(error_thrown_by([&] { looker.attribute_ownership_acquisition(known, motion); }), HlaError::attribute_not_published);
 }
 
 // 6.14, 7.1
 TEST(Conformance, WhoOwnsThePrivilegeMayDeleteAndItsRegistrantIsTold) {
-  Harbour harbour;
+  SharedVessel harbour;
   harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, privilege);
   harbour.rig.settle();
   harbour.taker.ambassador.attribute_ownership_acquisition_if_available(harbour.vessel_1, privilege);
   harbour.rig.settle();
-  EXPECT_EQ(error_of([&] { harbour.owner.ambassador.delete_object_instance(harbour.vessel_1); }), HlaError::delete_privilege_not_held);
+  EXPECT_EQ(error_thrown_by([&] { harbour.owner.ambassador.delete_object_instance(harbour.vessel_1); }), HlaError::delete_privilege_not_held);
   harbour.taker.ambassador.delete_object_instance(harbour.vessel_1);
-  harbour.update(harbour.owner, both, values_of(1.0f, 2.0f, 3.0f));  // crosses the deletion
+  harbour.update(harbour.owner, motion, values_of(1.0f, 2.0f, 3.0f));  // crosses the deletion
   harbour.rig.settle();
   EXPECT_EQ(harbour.rig.execution().object_count(), 0u);
   EXPECT_EQ(harbour.rig.execution().counters().late_requests, 1u);
   EXPECT_EQ(harbour.owner.ambassador.counters().objects_removed, 1u);
-  EXPECT_EQ(error_of([&] { harbour.update(harbour.owner, both, values_of(1.0f, 2.0f, 3.0f)); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { harbour.update(harbour.owner, motion, values_of(1.0f, 2.0f, 3.0f)); }), HlaError::object_instance_not_known);
   EXPECT_EQ(harbour.drop_count(), 0u) << "an honest race drops nobody";
 }
 
 // 5.3
 TEST(Conformance, UnpublishingAClassDivestsWhatWasOwnedOfIt) {
-  Harbour harbour;
+  SharedVessel harbour;
   harbour.owner.ambassador.publish_object_class_attributes(vessel, AttributeSet{position});
   EXPECT_TRUE(harbour.owns_none(harbour.owner, AttributeSet{speed}));
   harbour.rig.settle();
@@ -266,12 +255,12 @@ TEST(Conformance, UnpublishingAClassDivestsWhatWasOwnedOfIt) {
 
 // 4.10
 TEST(Conformance, AResignActionThatLeavesOwnershipBehindIsRefused) {
-  Harbour harbour;
+  SharedVessel harbour;
   Ambassador& owner = harbour.owner.ambassador;
-  EXPECT_EQ(error_of([&] { owner.resign(ResignAction::no_action); }), HlaError::federate_owns_attributes);
-  EXPECT_EQ(error_of([&] { owner.resign(ResignAction::cancel_pending_ownership_acquisitions); }), HlaError::federate_owns_attributes);
-  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both);
-  EXPECT_EQ(error_of([&] { harbour.taker.ambassador.resign(ResignAction::no_action); }), HlaError::ownership_acquisition_pending);
+  EXPECT_EQ(error_thrown_by([&] { owner.resign(ResignAction::no_action); }), HlaError::federate_owns_attributes);
+  EXPECT_EQ(error_thrown_by([&] { owner.resign(ResignAction::cancel_pending_ownership_acquisitions); }), HlaError::federate_owns_attributes);
+  harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion);
+  EXPECT_EQ(error_thrown_by([&] { harbour.taker.ambassador.resign(ResignAction::no_action); }), HlaError::ownership_acquisition_pending);
   harbour.taker.ambassador.resign(ResignAction::cancel_pending_ownership_acquisitions);
   owner.unconditional_attribute_ownership_divestiture(harbour.vessel_1, AttributeSet{speed});
   harbour.rig.settle();
@@ -284,27 +273,27 @@ TEST(Conformance, AResignActionThatLeavesOwnershipBehindIsRefused) {
 // 4.10, 10.4
 TEST(Conformance, ALostFederateLeavesByItsAutomaticResignDirective) {
   for (const ResignAction action : {ResignAction::cancel_then_delete_then_divest, ResignAction::unconditionally_divest_attributes}) {
-    Harbour harbour;
+    SharedVessel harbour;
     harbour.owner.ambassador.set_automatic_resign_directive(action);
-    harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, both);
+    harbour.taker.ambassador.attribute_ownership_acquisition(harbour.vessel_1, motion);
     harbour.rig.settle();
     harbour.owner.link->close();
     harbour.rig.settle();
     const bool is_deleted = action == ResignAction::cancel_then_delete_then_divest;
     EXPECT_EQ(harbour.rig.execution().object_count(), is_deleted ? 0u : 1u);
     if (is_deleted) continue;
-    EXPECT_TRUE(harbour.owns(harbour.taker, both)) << "who waited for it has it";
+    EXPECT_TRUE(harbour.owns(harbour.taker, motion)) << "who waited for it has it";
   }
 }
 
 // 7.4
 TEST(Conformance, WhoMayOwnAnOrphanOnlyLaterIsAskedThen) {
-  Harbour harbour;
-  harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, both);
+  SharedVessel harbour;
+  harbour.owner.ambassador.unconditional_attribute_ownership_divestiture(harbour.vessel_1, motion);
   harbour.rig.settle();
   harbour.looker.ambassador.publish_object_class_attributes(vessel, AttributeSet{speed});
   Station& late = harbour.rig.join("late");
-  late.ambassador.publish_object_class_attributes(vessel, both);
+  late.ambassador.publish_object_class_attributes(vessel, motion);
   late.ambassador.subscribe_object_class_attributes(vessel, AttributeSet{speed});
   harbour.owner.ambassador.negotiated_attribute_ownership_divestiture(harbour.vessel_1, privilege);
   harbour.rig.settle();

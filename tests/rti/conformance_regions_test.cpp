@@ -2,20 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/rti/airspace.h"
+#include "tests/rti/errors.h"
 
 namespace rink::rti::testing {
 namespace {
-
-/// The error that `service` throws; none if it does not.
-template <class Service>
-HlaError error_of(Service service) {
-  try {
-    service();
-  } catch (const RtiException& error) {
-    return error.error();
-  }
-  return HlaError::none;
-}
 
 struct Sky {
   Flights<> flights{2};
@@ -37,14 +27,14 @@ TEST(Conformance, ARegionIsCreatedForTheSpecifiedDimensions) {
   Sky sky;
   const RegionHandle made = sky.up.create_region({altitude, channel});
   EXPECT_EQ(sky.up.get_dimension_handle_set(made), (DimensionSet{altitude, channel}));
-  EXPECT_EQ(error_of([&] { sky.up.create_region(DimensionSet{DimensionHandle{9}}); }), HlaError::invalid_dimension_handle);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.create_region(DimensionSet{DimensionHandle{9}}); }), HlaError::invalid_dimension_handle);
 }
 
 // 9.2
 TEST(Conformance, RangesThatWereNeverSetAreAllOfADimensionWithAnUpperBound) {
   Sky sky;
   EXPECT_EQ(sky.up.get_range_bounds(sky.up.create_region({channel}), channel), (Range{0.0, 6.0}));
-  EXPECT_EQ(error_of([&] { sky.up.commit_region_modifications(sky.up.create_region({altitude})); }), HlaError::invalid_region) << "no bound to fill it with";
+  EXPECT_EQ(error_thrown_by([&] { sky.up.commit_region_modifications(sky.up.create_region({altitude})); }), HlaError::invalid_region) << "no bound to fill it with";
 }
 
 // 9.3
@@ -69,7 +59,7 @@ TEST(Conformance, NoRegionOfASetIsCommittedIfOneOfThemIsInvalid) {
   Sky sky;
   const std::array regions{Sky::region(sky.up, {channel}, {1.0, 2.0}), sky.up.create_region({altitude})};
   sky.flights.tick();
-  EXPECT_EQ(error_of([&] { sky.up.commit_region_modifications(regions); }), HlaError::invalid_region);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.commit_region_modifications(regions); }), HlaError::invalid_region);
   EXPECT_TRUE(sky.up.outgoing().empty());
 }
 
@@ -77,7 +67,7 @@ TEST(Conformance, NoRegionOfASetIsCommittedIfOneOfThemIsInvalid) {
 TEST(Conformance, ARegionInUseForUpdateOrSubscriptionIsNotDeleted) {
   Sky sky;
   const RegionHandle region = Sky::region(sky.up, {channel}, {1.0, 2.0});
-  const auto refused = [&] { return error_of([&] { sky.up.delete_region(region); }) == HlaError::region_in_use_for_update_or_subscription; };
+  const auto refused = [&] { return error_thrown_by([&] { sky.up.delete_region(region); }) == HlaError::region_in_use_for_update_or_subscription; };
   const ObjectHandle object = sky.up.register_object_instance_with_regions(aircraft, Sky::pair(where, region));
   EXPECT_TRUE(refused());
   sky.up.unassociate_regions_for_updates(object, Sky::pair(where, region));
@@ -91,7 +81,7 @@ TEST(Conformance, ARegionInUseForUpdateOrSubscriptionIsNotDeleted) {
   EXPECT_TRUE(refused());
   sky.up.delete_object_instance(object);
   EXPECT_FALSE(refused());
-  EXPECT_EQ(error_of([&] { sky.up.delete_region(region); }), HlaError::invalid_region) << "it is gone";
+  EXPECT_EQ(error_thrown_by([&] { sky.up.delete_region(region); }), HlaError::invalid_region) << "it is gone";
   sky.flights.tick();
 }
 
@@ -99,10 +89,10 @@ TEST(Conformance, ARegionInUseForUpdateOrSubscriptionIsNotDeleted) {
 TEST(Conformance, ARegionIsDeletedOnlyByTheFederateThatCreatedIt) {
   Sky sky;
   const RegionHandle foreign = Sky::region(sky.down, {channel}, {1.0, 2.0});
-  EXPECT_EQ(error_of([&] { sky.up.delete_region(foreign); }), HlaError::region_not_created_by_this_federate);
-  EXPECT_EQ(error_of([&] { sky.up.set_range_bounds(foreign, channel, {1.0, 2.0}); }), HlaError::region_not_created_by_this_federate);
-  EXPECT_EQ(error_of([&] { sky.up.subscribe_interaction_class_with_regions(call, std::span(&foreign, 1)); }), HlaError::region_not_created_by_this_federate);
-  EXPECT_EQ(error_of([&] { sky.up.delete_region({}); }), HlaError::invalid_region);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.delete_region(foreign); }), HlaError::region_not_created_by_this_federate);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.set_range_bounds(foreign, channel, {1.0, 2.0}); }), HlaError::region_not_created_by_this_federate);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.subscribe_interaction_class_with_regions(call, std::span(&foreign, 1)); }), HlaError::region_not_created_by_this_federate);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.delete_region({}); }), HlaError::invalid_region);
 }
 
 // 9.5
@@ -122,9 +112,9 @@ TEST(Conformance, ARegionWithADimensionThatIsNotAvailableForTheAttributeIsOutOfC
   const RegionHandle region = Sky::region(sky.up, {channel}, {1.0, 2.0});
   const auto foreign = Sky::pair(weight, region);
   const ObjectHandle object = sky.up.register_object_instance(aircraft);
-  EXPECT_EQ(error_of([&] { sky.up.register_object_instance_with_regions(aircraft, foreign); }), HlaError::invalid_region_context);
-  EXPECT_EQ(error_of([&] { sky.up.associate_regions_for_updates(object, foreign); }), HlaError::invalid_region_context);
-  EXPECT_EQ(error_of([&] { sky.up.subscribe_object_class_attributes_with_regions(aircraft, foreign); }), HlaError::invalid_region_context);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.register_object_instance_with_regions(aircraft, foreign); }), HlaError::invalid_region_context);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.associate_regions_for_updates(object, foreign); }), HlaError::invalid_region_context);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.subscribe_object_class_attributes_with_regions(aircraft, foreign); }), HlaError::invalid_region_context);
 }
 
 // 9.6
@@ -156,8 +146,8 @@ TEST(Conformance, OnlyWhoOwnsAnAttributeAssociatesRegionsWithIt) {
   sky.down.subscribe_object_class_attributes(aircraft, AttributeSet{where});
   sky.flights.tick();
   const RegionHandle view = Sky::region(sky.down, {channel}, {1.0, 2.0});
-  EXPECT_EQ(error_of([&] { sky.down.associate_regions_for_updates(object, Sky::pair(where, view)); }), HlaError::attribute_not_owned);
-  EXPECT_EQ(error_of([&] { sky.down.associate_regions_for_updates(ObjectHandle{77}, Sky::pair(where, view)); }), HlaError::object_instance_not_known);
+  EXPECT_EQ(error_thrown_by([&] { sky.down.associate_regions_for_updates(object, Sky::pair(where, view)); }), HlaError::attribute_not_owned);
+  EXPECT_EQ(error_thrown_by([&] { sky.down.associate_regions_for_updates(ObjectHandle{77}, Sky::pair(where, view)); }), HlaError::object_instance_not_known);
 }
 
 // 9.8, 9.9
@@ -248,7 +238,7 @@ TEST(Conformance, RegionsWithoutADimensionInCommonDoNotOverlap) {
 TEST(Conformance, DimensionsAreLookedUpByNameAndGiveTheirBounds) {
   Sky sky;
   EXPECT_EQ(sky.up.get_dimension_handle("Channel"), channel);
-  EXPECT_EQ(error_of([&] { sky.up.get_dimension_handle("Colour"); }), HlaError::name_not_found);
+  EXPECT_EQ(error_thrown_by([&] { sky.up.get_dimension_handle("Colour"); }), HlaError::name_not_found);
   EXPECT_EQ(sky.up.get_dimension_name(altitude), "Altitude");
   EXPECT_EQ(sky.up.get_dimension_upper_bound(channel), 6u);
   EXPECT_EQ(sky.up.get_dimension_upper_bound(altitude), std::nullopt) << "measured: any finite number";
@@ -261,7 +251,7 @@ TEST(Conformance, DimensionsAreLookedUpByNameAndGiveTheirBounds) {
 TEST(Conformance, RangeBoundsAreThoseOfAContainedDimensionAndWithinIt) {
   Sky sky;
   const RegionHandle region = sky.up.create_region({channel, altitude});
-  const auto error = [&](DimensionHandle dimension, const Range& range) { return error_of([&] { sky.up.set_range_bounds(region, dimension, range); }); };
+  const auto error = [&](DimensionHandle dimension, const Range& range) { return error_thrown_by([&] { sky.up.set_range_bounds(region, dimension, range); }); };
   EXPECT_EQ(error(x, {0.0, 1.0}), HlaError::region_does_not_contain_specified_dimension);
   EXPECT_EQ(error(DimensionHandle{12}, {0.0, 1.0}), HlaError::invalid_dimension_handle);
   for (const Range& range : {Range{2.0, 2.0}, Range{3.0, 2.0}, Range{-1.0, 2.0}, Range{5.0, 7.0}, Range{0.5, 2.0}}) EXPECT_EQ(error(channel, range), HlaError::invalid_range_bound);

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <random>
 
-#include "rti/wire/datagram.h"
-#include "tests/rti/rig.h"
+#include "tests/rti/strait.h"
 
 namespace rink::rti::testing {
 namespace {
 
+using namespace over_the_strait;
+
 /// What the air does to datagrams.
-struct Weather {
+struct Air {
   double loss = 0.0, doubling = 0.0, delay = 0.0;  ///< probabilities; a delayed one stays for up to eight polls
   bool is_blocked = false;                         ///< nothing gets through
   std::size_t size_max = 1191;
@@ -20,7 +21,7 @@ struct Weather {
 /// An in-process end that also carries datagrams, badly.
 class StormyEndpoint final : public Transport, private TransportListener {
  public:
-  StormyEndpoint(InProcessNetwork& network, Weather& weather, std::mt19937& random) : stream_(network), weather_(weather), random_(random) {}
+  StormyEndpoint(InProcessNetwork& network, Air& weather, std::mt19937& random) : stream_(network), weather_(weather), random_(random) {}
   InProcessEndpoint& stream() { return stream_; }
   /// Where this end's datagrams of `connection` come out.
   void lead(ConnectionId connection, StormyEndpoint& other, ConnectionId there) {
@@ -68,7 +69,7 @@ class StormyEndpoint final : public Transport, private TransportListener {
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override { is_open_.erase(connection), listener_->on_close(connection, reason, detail); }
 
   InProcessEndpoint stream_;
-  Weather& weather_;
+  Air& weather_;
   std::mt19937& random_;
   TransportListener* listener_ = nullptr;
   std::vector<std::pair<StormyEndpoint*, ConnectionId>> leads_;
@@ -76,26 +77,11 @@ class StormyEndpoint final : public Transport, private TransportListener {
   std::set<ConnectionId> is_open_;
 };
 
-constexpr const char* weather_xml = R"(<objectModel><objects><objectClass><name>Root</name>
-<objectClass><name>Buoy</name>
-  <attribute><name>name</name><dataType>HLAinteger32LE</dataType></attribute>
-  <attribute><name>height</name><dataType>HLAfloat64LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-  <attribute><name>heading</name><dataType>HLAfloat32LE</dataType><transportation>HLAbestEffort</transportation></attribute>
-</objectClass></objectClass></objects></objectModel>)";
-
-const Fom& sea() {
-  static const Fom fom = Fom::parse(weather_xml, "sea.xml");
-  return fom;
-}
-const ObjectClassHandle buoy = *sea().object_class("Buoy");
-AttributeSet only(const char* attribute) { return AttributeSet(1u << sea().attribute(buoy, attribute)->value); }
-const AttributeSet name = only("name"), height = only("height"), heading = only("heading");
-
 /// Keeps each attribute's value and counts every step back: values only grow.
-struct Watcher : FederateAmbassador {
+struct BuoyWatcher : FederateAmbassador {
   Ambassador ambassador;
   std::unique_ptr<FederateLink> link;
-  Watcher() : ambassador(sea(), *this) {}
+  BuoyWatcher() : ambassador(strait(), *this) {}
   struct Known {
     bool is_in_scope = false;
     double height = -1.0;
@@ -110,8 +96,8 @@ struct Watcher : FederateAmbassador {
   void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp&) override {
     if (!known.contains(object.value) || !known[object.value].is_in_scope) ++unknown;
     Known& one = known[object.value];
-    if (set.includes(height)) read(sea().value(buoy, set, *sea().attribute(buoy, "height"), values), one.height);
-    if (set.includes(heading)) read(sea().value(buoy, set, *sea().attribute(buoy, "heading"), values), one.heading);
+    if (set.includes(height)) read(strait().value(buoy, set, *strait().attribute(buoy, "height"), values), one.height);
+    if (set.includes(heading)) read(strait().value(buoy, set, *strait().attribute(buoy, "heading"), values), one.heading);
   }
   template <class Number>
   void read(Bytes bytes, Number& value) {
@@ -123,9 +109,9 @@ struct Watcher : FederateAmbassador {
 };
 
 /// A publisher beside the RTI, and watchers behind the weather.
-class Sea {
+class StormySea {
  public:
-  explicit Sea(unsigned seed, int watchers = 2) : random_(seed) {
+  explicit StormySea(unsigned seed, int watchers = 2) : random_(seed) {
     near_.listen("near");
     far_.stream().listen("far");
     host_.add(near_);
@@ -133,19 +119,19 @@ class Sea {
     publisher.link = std::make_unique<FederateLink>(publisher.ambassador, own_, own_.connect("near"));
     own_links_.add(*publisher.link);
     publisher.ambassador.join("rink", "publisher", "");
-    publisher.ambassador.publish_object_class_attributes(buoy, name | height | heading);
+    publisher.ambassador.publish_object_class_attributes(buoy, number | height | heading);
     for (int i = 0; i < watchers; ++i) add_watcher();
     rounds(10);
   }
-  Watcher& add_watcher() {
-    Watcher& watcher = watchers.emplace_back();
+  BuoyWatcher& add_watcher() {
+    BuoyWatcher& watcher = watchers.emplace_back();
     const ConnectionId here = clients_.stream().connect("far"), there = next_there_++;
     watcher.link = std::make_unique<FederateLink>(watcher.ambassador, clients_, here);
     links_.add(*watcher.link);
     clients_.lead(here, far_, there);
     far_.lead(there, clients_, here);
     watcher.ambassador.join("rink", "watcher " + std::to_string(there), "");
-    watcher.ambassador.subscribe_object_class_attributes(buoy, name | height | heading);
+    watcher.ambassador.subscribe_object_class_attributes(buoy, number | height | heading);
     return watcher;
   }
   void round(double seconds = 1.0 / 60.0) {
@@ -169,14 +155,14 @@ class Sea {
   }
   void update(ObjectHandle object, AttributeSet set) {
     std::vector<std::byte> values;
-    if (set.includes(name)) values = values_of(std::int32_t{1});
+    if (set.includes(number)) values = values_of(std::int32_t{1});
     if (set.includes(height)) append(values, values_of(truth[object.value].height += 1.0));
     if (set.includes(heading)) append(values, values_of(truth[object.value].heading += 1.0f));
     publisher.ambassador.update_attribute_values(object, set, values, {now, 0});
   }
   /// Everybody's mirror against what was last said; nobody ever went back or heard of what he did not see.
   void expect_truth() {
-    for (const Watcher& watcher : watchers) {
+    for (const BuoyWatcher& watcher : watchers) {
       EXPECT_EQ(watcher.went_back, 0);
       EXPECT_EQ(watcher.unknown, 0);
       EXPECT_EQ(watcher.known.size(), buoys.size());
@@ -194,37 +180,37 @@ class Sea {
   StormyEndpoint& clients() { return clients_; }
 
   double now = 0.0;
-  Weather weather;
-  Watcher publisher;
-  std::deque<Watcher> watchers;
+  Air weather;
+  BuoyWatcher publisher;
+  std::deque<BuoyWatcher> watchers;
   std::vector<ObjectHandle> buoys;
-  std::map<std::uint32_t, Watcher::Known> truth;
+  std::map<std::uint32_t, BuoyWatcher::Known> truth;
 
  private:
   std::mt19937 random_;
   InProcessNetwork network_;
   InProcessEndpoint near_{network_}, own_{network_};
   StormyEndpoint far_{network_, weather, random_}, clients_{network_, weather, random_};
-  FederationExecution execution_{sea(), {}};
+  FederationExecution execution_{strait(), {}};
   FederationHost host_{execution_};
   FederateLinks own_links_, links_;
   ConnectionId next_there_ = 0;
 };
 
 TEST(Datagrams, BestEffortUpdatesTakeThemAndReliableOnesDoNot) {
-  Sea sea(1);
+  StormySea sea(1);
   const ObjectHandle object = sea.place_buoy();
-  sea.update(object, name | height | heading);
+  sea.update(object, number | height | heading);
   sea.rounds(5);
   sea.expect_truth();
   const int before = sea.far().sent;
-  sea.update(object, name);
+  sea.update(object, number);
   sea.rounds(1);
   EXPECT_EQ(sea.far().sent, before);
   sea.update(object, height);
   sea.rounds(1);
   EXPECT_EQ(sea.far().sent, before + 2) << "one for each watcher";
-  sea.update(object, name | heading);
+  sea.update(object, number | heading);
   sea.rounds(1);
   EXPECT_EQ(sea.far().sent, before + 4) << "an update of both kinds is told apart";
   sea.rounds(3);
@@ -247,7 +233,7 @@ TEST(Datagrams, CostNothingWhereNothingIsBestEffort) {
 }
 
 TEST(Datagrams, AreAcknowledgedTenTimesASecondWhereNoneIsMissing) {
-  Sea sea(8, 1);
+  StormySea sea(8, 1);
   const ObjectHandle object = sea.place_buoy();
   sea.update(object, height);
   sea.rounds(10);
@@ -264,7 +250,7 @@ TEST(Datagrams, AreAcknowledgedTenTimesASecondWhereNoneIsMissing) {
 }
 
 TEST(Datagrams, ManyObjectsAreCutIntoDatagramsOfTheAllowedSize) {
-  Sea sea(2);
+  StormySea sea(2);
   for (int i = 0; i < 500; ++i) sea.place_buoy();
   sea.rounds(3);
   for (int tick = 0; tick < 3; ++tick) {
@@ -277,7 +263,7 @@ TEST(Datagrams, ManyObjectsAreCutIntoDatagramsOfTheAllowedSize) {
 }
 
 TEST(Datagrams, ALostFinalStateIsRepaired) {
-  Sea sea(3, 1);
+  StormySea sea(3, 1);
   const ObjectHandle object = sea.place_buoy();
   sea.update(object, height | heading);
   sea.rounds(5);
@@ -296,7 +282,7 @@ TEST(Datagrams, ALostFinalStateIsRepaired) {
 TEST(Datagrams, StormsChangeNothingInTheEnd) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Sea sea(seed, 3);
+    StormySea sea(seed, 3);
     sea.weather = {.loss = 0.3, .doubling = 0.2, .delay = 0.5, .is_blocked = false, .size_max = seed % 2 == 0 ? 1191u : 300u};
     std::mt19937 random(seed);
     for (int tick = 0; tick < 200; ++tick) {
@@ -304,14 +290,14 @@ TEST(Datagrams, StormsChangeNothingInTheEnd) {
       for (const ObjectHandle object : sea.buoys) {
         const unsigned choice = random() % 8;
         if (choice < 3) sea.update(object, choice == 0 ? height : choice == 1 ? heading : height | heading);
-        if (choice == 3 && tick % 10 == 0) sea.update(object, name | height);
+        if (choice == 3 && tick % 10 == 0) sea.update(object, number | height);
       }
       // Watchers look away and come back, which brings the whole state by the stream, ahead of datagrams that are still on their way.
       if (tick % 7 == 3) {
-        Watcher& watcher = sea.watchers[random() % 3];
+        BuoyWatcher& watcher = sea.watchers[random() % 3];
         watcher.ambassador.unsubscribe_object_class(buoy);
         sea.round();
-        watcher.ambassador.subscribe_object_class_attributes(buoy, name | height | heading);
+        watcher.ambassador.subscribe_object_class_attributes(buoy, number | height | heading);
       }
       sea.round();
     }
@@ -324,7 +310,7 @@ TEST(Datagrams, StormsChangeNothingInTheEnd) {
 }
 
 TEST(Datagrams, AWayThatLosesEverythingFallsBackToTheStreamAndOpensAgain) {
-  Sea sea(5);
+  StormySea sea(5);
   const ObjectHandle object = sea.place_buoy();
   sea.update(object, height | heading);
   sea.rounds(5);
@@ -347,12 +333,12 @@ TEST(Datagrams, AWayThatLosesEverythingFallsBackToTheStreamAndOpensAgain) {
 }
 
 TEST(Datagrams, NonsenseIsIgnoredAndCounted) {
-  Sea sea(6, 1);
+  StormySea sea(6, 1);
   const ObjectHandle object = sea.place_buoy();
   sea.update(object, height);
   sea.rounds(5);
   std::mt19937 random(6);
-  Watcher& watcher = sea.watchers[0];
+  BuoyWatcher& watcher = sea.watchers[0];
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::byte> bytes(random() % 60);
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() % (i % 2 == 0 ? 256 : 64));

@@ -15,9 +15,9 @@ using ::testing::ElementsAre;
 using ::testing::Not;
 
 /// A host without a fixed federation, in process.
-class Port {
+class FreePort {
  public:
-  Port() : host_(directory), server_(network_), clients_(network_) {
+  FreePort() : host_(directory), server_(network_), clients_(network_) {
     directory.offer(harbour());
     server_.listen("rti");
     host_.add(server_);
@@ -57,7 +57,7 @@ class Port {
 };
 
 TEST(FederationDirectory, ExecutionsAreMadeListedJoinedAndRemovedByName) {
-  Port port;
+  FreePort port;
   Station& asker = port.connect();
   asker.ambassador.create_federation_execution("north");
   asker.ambassador.create_federation_execution("south");
@@ -82,7 +82,7 @@ TEST(FederationDirectory, ExecutionsAreMadeListedJoinedAndRemovedByName) {
 }
 
 TEST(FederationDirectory, FederatesOfOneNameInTwoExecutionsHearNothingOfEachOther) {
-  Port port;
+  FreePort port;
   port.directory.create("north", harbour().hash());
   port.directory.create("south", harbour().hash());
   Station &north = port.join("north", "ship"), &south = port.join("south", "ship"), &watcher = port.join("south", "watcher");
@@ -101,7 +101,7 @@ TEST(FederationDirectory, FederatesOfOneNameInTwoExecutionsHearNothingOfEachOthe
 }
 
 TEST(FederationDirectory, NamesInUseForeignModelsAndTooManyAreRefusedByTheirErrors) {
-  Port port;
+  FreePort port;
   EXPECT_EQ(port.directory.create("north", harbour().hash()), HlaError::none);
   EXPECT_EQ(port.directory.create("north", harbour().hash()), HlaError::federation_execution_already_exists);
   EXPECT_EQ(port.directory.create("south", harbour().hash() + 1), HlaError::could_not_open_fdd);

@@ -8,10 +8,9 @@
 
 #include "tests/rti/fjord.h"
 #include "tests/rti/rig.h"
+#include "tests/rti/seeded.h"
 
 namespace rink::rti::testing {
-
-inline double between(std::mt19937_64& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
 
 inline std::vector<std::byte> reversed(std::vector<std::byte> bytes) {
   std::ranges::reverse(bytes);

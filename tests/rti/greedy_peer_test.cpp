@@ -17,7 +17,6 @@ namespace rink::rti::testing {
 namespace {
 
 constexpr std::uint32_t villains_first = 1 * object_block;  // the second federate's block
-const std::uint16_t vessel_number = static_cast<std::uint16_t>(vessel.value);
 
 template <class Message>
 std::size_t size_of(Message message) {

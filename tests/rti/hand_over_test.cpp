@@ -8,8 +8,6 @@
 namespace rink::rti::testing {
 namespace {
 
-const AttributeSet all{position, speed, privilege_to_delete_object};
-
 /// A sea on which ships change hands without end. Requests are sent before what they cross has arrived.
 class Traders {
  public:
@@ -24,7 +22,7 @@ class Traders {
     Station& station = *crew_[random_() % crew_.size()];
     if (chance < 8 || ships_.empty()) return add_ship(station);
     const ObjectHandle ship = ships_[random_() % ships_.size()];
-    const AttributeSet set = AttributeSet(static_cast<std::uint32_t>(random_())) & all;
+    const AttributeSet set = AttributeSet(static_cast<std::uint32_t>(random_())) & whole_vessel;
     const std::uint64_t operation = random_() % 11;
     try {
       act(station, ship, set, operation);
@@ -165,11 +163,11 @@ TEST(HandOver, OfAThousandBodiesTakesABlockEachWay) {
     rig.settle();
     return rig.execution().counters().bytes_sent + rig.execution().counters().bytes_received - before;
   };
-  for (const ObjectHandle body : bodies) giver.ambassador.negotiated_attribute_ownership_divestiture(body, all);
+  for (const ObjectHandle body : bodies) giver.ambassador.negotiated_attribute_ownership_divestiture(body, whole_vessel);
   EXPECT_LE(settle_bytes(), 2u * (1000 + 64));  // to the RTI and on, a byte each
-  for (const ObjectHandle body : bodies) taker.ambassador.attribute_ownership_acquisition(body, all);
+  for (const ObjectHandle body : bodies) taker.ambassador.attribute_ownership_acquisition(body, whole_vessel);
   EXPECT_LE(settle_bytes(), 2u * (1000 + 64));
-  for (const ObjectHandle body : bodies) giver.ambassador.confirm_divestiture(body, all);
+  for (const ObjectHandle body : bodies) giver.ambassador.confirm_divestiture(body, whole_vessel);
   rig.settle();
   for (const ObjectHandle body : bodies) ASSERT_TRUE(taker.ambassador.is_attribute_owned_by_federate(body, position));
   EXPECT_EQ(rig.execution().counters().ownership_notices_sent, 3000u);

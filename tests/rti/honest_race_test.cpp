@@ -10,8 +10,6 @@ namespace {
 
 using namespace testing;
 
-const AttributeSet both{position, speed};
-
 /// A federate with one vessel, and one that sees it.
 struct Race {
   TimedFederation federation;
@@ -21,10 +19,10 @@ struct Race {
   std::uint64_t number = 0;
 
   Race() {
-    owner.ambassador.publish_object_class_attributes(vessel, both);
-    watcher.ambassador.subscribe_object_class_attributes(vessel, both);
+    owner.ambassador.publish_object_class_attributes(vessel, motion);
+    watcher.ambassador.subscribe_object_class_attributes(vessel, motion);
     object = owner.ambassador.register_object_instance(vessel);
-    owner.ambassador.update_attribute_values(object, both, values_of(1.0f, 2.0f, 3.0f), Stamp{});
+    owner.ambassador.update_attribute_values(object, motion, values_of(1.0f, 2.0f, 3.0f), Stamp{});
     federation.carry();
   }
   /// As bytes, for an ambassador would know better.
@@ -44,7 +42,7 @@ struct Race {
   }
   std::vector<std::byte> update_of(std::uint32_t handle) {
     std::vector<std::byte> content;
-    UpdatesMessage header{static_cast<std::uint16_t>(vessel.value), both.bits};
+    UpdatesMessage header{static_cast<std::uint16_t>(vessel.value), motion.bits};
     write(content, header);
     RecordWriter(content).add(handle, values_of(4.0f, 5.0f, 6.0f));
     return content;

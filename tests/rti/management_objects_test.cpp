@@ -6,6 +6,7 @@
 
 #include "rti/management/management_values.h"
 #include "tests/rti/bare.h"
+#include "tests/rti/errors.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
@@ -306,18 +307,10 @@ TEST(ManagementObjectModel, AutoProvideAsksOwnersWhenSomebodyDiscovers) {
 TEST(ManagementObjectModel, IsTheRtisToSpeakOf) {
   Rig rig(Carrier::in_process);
   Warden warden(rig);
-  const auto error_of = [](auto call) {
-    try {
-      call();
-    } catch (const RtiException& error) {
-      return error.error();
-    }
-    return HlaError::none;
-  };
-  EXPECT_EQ(error_of([&] { warden.ambassador().publish_object_class_attributes(federate_class, AttributeSet(1)); }), HlaError::unauthorized);
-  EXPECT_EQ(error_of([&] { warden.ambassador().publish_interaction_class(manager_interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication")); }), HlaError::unauthorized);
-  EXPECT_EQ(error_of([&] { warden.ambassador().register_object_instance(federate_class); }), HlaError::object_class_not_published);
-  EXPECT_EQ(error_of([&] { warden.ambassador().attribute_ownership_acquisition(warden.object_of("warden"), AttributeSet(1)); }), HlaError::object_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().publish_object_class_attributes(federate_class, AttributeSet(1)); }), HlaError::unauthorized);
+  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().publish_interaction_class(manager_interaction("HLAfederate.HLAreport.HLAreportObjectClassPublication")); }), HlaError::unauthorized);
+  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().register_object_instance(federate_class); }), HlaError::object_class_not_published);
+  EXPECT_EQ(error_thrown_by([&] { warden.ambassador().attribute_ownership_acquisition(warden.object_of("warden"), AttributeSet(1)); }), HlaError::object_class_not_published);
   warden.ambassador().query_attribute_ownership(warden.object_of("warden"), AttributeHandle{0});
   rig.settle();
   EXPECT_TRUE(warden.heard().lost.empty());

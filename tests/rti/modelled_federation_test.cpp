@@ -7,12 +7,11 @@
 #include <fstream>
 #include <random>
 
+#include "tests/rti/instants.h"
 #include "tests/rti/rig.h"
 
 namespace rink::rti::testing {
 namespace {
-
-constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
 
 /// Everything that `station` was told, in words.
 std::string story_of(const Station& station) {

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "rti/transport/network_model.h"
+#include "tests/rti/instants.h"
 
 namespace rink::rti {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
-constexpr std::chrono::nanoseconds no_wait{0};
+using namespace testing;
 
 NetworkConditions both_ways(const LinkConditions& conditions, std::vector<Partition> partitions = {}) {
   return {.seed = 3, .to_listener = conditions, .from_listener = conditions, .exceptions = {}, .partitions = std::move(partitions)};

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/rti/instants.h"
+
 namespace rink::rti {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
+using namespace testing;
 
 /// One link of its own, whose direction to the listener is `conditions`.
 struct Link {

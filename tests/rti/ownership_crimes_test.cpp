@@ -8,8 +8,6 @@
 namespace rink::rti::testing {
 namespace {
 
-const AttributeSet both{position, speed};
-
 /// The owner of a vessel on connection 0, a villain who knows it on connection 1.
 struct Scene final : Outlet {
   FederationExecution execution{harbour(), {}};
@@ -22,12 +20,12 @@ struct Scene final : Outlet {
     for (ConnectionId each : {0u, 1u}) execution.connect(each);
     owner.join("rink", "owner", "tester");
     tick();
-    owner.publish_object_class_attributes(vessel, both);
+    owner.publish_object_class_attributes(vessel, motion);
     vessel_1 = owner.register_object_instance(vessel);
     tick();
     villain.join("rink", "villain", "tester");
     tick();
-    villain.subscribe_object_class_attributes(vessel, both);
+    villain.subscribe_object_class_attributes(vessel, motion);
     tick();
   }
   Ambassador& federate(ConnectionId connection) { return connection == 0 ? owner : villain; }
@@ -62,7 +60,7 @@ struct OwnershipCrime {
   const char* name;
   Violation violation;
   OwnershipRequest request;
-  AttributeSet attributes = both;
+  AttributeSet attributes = motion;
   std::uint32_t object = 0;
   bool is_publisher = true;
 };
@@ -72,7 +70,7 @@ class OwnershipCrimes : public ::testing::TestWithParam<OwnershipCrime> {};
 TEST_P(OwnershipCrimes, IsNamedCountedAndDroppedAndTakesNothing) {
   Scene scene;
   const OwnershipCrime& crime = GetParam();
-  if (crime.is_publisher) scene.villain.publish_object_class_attributes(vessel, both);
+  if (crime.is_publisher) scene.villain.publish_object_class_attributes(vessel, motion);
   scene.tick();
   scene.say(asking(crime.request, crime.attributes), ObjectHandle{crime.object});
   EXPECT_TRUE(scene.is_dropped[1]);
@@ -91,9 +89,9 @@ INSTANTIATE_TEST_SUITE_P(
                       OwnershipCrime{"DenialForSomebodyElse", Violation::not_owned, OwnershipRequest::deny_release},
                       OwnershipCrime{"GiftOfForeignAttributes", Violation::not_owned, OwnershipRequest::give_if_wanted},
                       OwnershipCrime{"WithdrawalOfAForeignOffer", Violation::not_owned, OwnershipRequest::withdraw_offer},
-                      OwnershipCrime{"AcquisitionOfWhatItDoesNotPublish", Violation::undeclared, OwnershipRequest::acquire, both, 0, false},
+                      OwnershipCrime{"AcquisitionOfWhatItDoesNotPublish", Violation::undeclared, OwnershipRequest::acquire, motion, 0, false},
                       OwnershipCrime{"AcquisitionOfAnUnknownAttribute", Violation::unknown_name, OwnershipRequest::acquire, AttributeSet(1u << 20)},
-                      OwnershipCrime{"AcquisitionOfAnUnknownObject", Violation::unknown_name, OwnershipRequest::acquire_if_available, both, 77}),
+                      OwnershipCrime{"AcquisitionOfAnUnknownObject", Violation::unknown_name, OwnershipRequest::acquire_if_available, motion, 77}),
     [](const auto& crime) { return std::string(crime.param.name); });
 
 TEST(OwnershipBytes, ThatAreMalformedDropTheirSender) {
@@ -102,7 +100,7 @@ TEST(OwnershipBytes, ThatAreMalformedDropTheirSender) {
     scene.say(message, object);
     return scene.is_dropped[1] && scene.execution.counters().drops[static_cast<std::size_t>(Violation::malformed)] == 1;
   };
-  EXPECT_TRUE(is_dropped_for(asking(OwnershipRequest::divest, both), std::nullopt)) << "a block without an end";
+  EXPECT_TRUE(is_dropped_for(asking(OwnershipRequest::divest, motion), std::nullopt)) << "a block without an end";
   for (const std::vector<std::byte>& bytes : {values_of(std::uint8_t{36}, std::uint8_t{9}, std::uint8_t{3}, std::uint16_t{0}, std::uint8_t{0}),      // a request that isn't
                                               values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{0}, std::uint16_t{0}, std::uint8_t{0}),      // no attributes
                                               values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{3}, std::uint16_t{2000}, std::uint8_t{0}),   // a tag too long

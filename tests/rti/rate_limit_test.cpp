@@ -23,7 +23,7 @@ TEST(RateLimit, ABucketGivesASecondsWorthAtOnceAndItsRateFromThenOn) {
 }
 
 /// Counts what is passed on.
-struct Ear final : TransportListener {
+struct ByteCount final : TransportListener {
   std::size_t bytes = 0;
   int opened = 0, closed = 0;
   CloseReason reason = CloseReason::failed;
@@ -35,8 +35,8 @@ struct Ear final : TransportListener {
   }
 };
 
-struct Line {
-  explicit Line(const RateLimit& limit) : limited(server, limit, [this] { return now; }) {
+struct LimitedLine {
+  explicit LimitedLine(const RateLimit& limit) : limited(server, limit, [this] { return now; }) {
     server.listen("rti");
     id = client.connect("rti");
     hear();
@@ -50,7 +50,7 @@ struct Line {
   InProcessNetwork network;
   InProcessEndpoint server{network}, client{network};
   RateLimitedTransport limited;
-  Ear here, there;
+  ByteCount here, there;
   ConnectionId id = 0;
 };
 
@@ -66,7 +66,7 @@ std::vector<std::byte> frames(int count, std::uint32_t size) {
 }
 
 TEST(RateLimit, WhoSendsMoreBytesThanAllowedIsClosedAndNamed) {
-  Line line({.bytes_per_s = 1000.0});
+  LimitedLine line({.bytes_per_s = 1000.0});
   for (int second = 0; second < 20; ++second, line.now += 1.0) {
     line.say(frames(4, 246));
     line.hear();
@@ -87,7 +87,7 @@ TEST(RateLimit, FramesCountHoweverTheyAreCut) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    Line line({.frames_per_s = 50.0});
+    LimitedLine line({.frames_per_s = 50.0});
     const std::vector<std::byte> allowed = frames(50, static_cast<std::uint32_t>(1 + random() % 30));
     for (Bytes left = allowed; !left.empty();) {
       const std::size_t size = std::min<std::size_t>(left.size(), 1 + random() % 40);

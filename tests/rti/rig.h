@@ -63,6 +63,7 @@ inline const Fom& harbour() {
 inline const ObjectClassHandle vessel = *harbour().object_class("Vessel"), ferry = *harbour().object_class("Ferry");
 inline const AttributeHandle position = *harbour().attribute(ferry, "position"), speed = *harbour().attribute(ferry, "speed"),
                              destination = *harbour().attribute(ferry, "destination");
+inline const AttributeSet motion{position, speed}, whole_vessel{position, speed, privilege_to_delete_object};
 inline const InteractionClassHandle hail = *harbour().interaction_class("Hail"), mayday = *harbour().interaction_class("Mayday");
 
 inline std::vector<std::byte> bytes_of(std::string_view text) {

@@ -14,8 +14,8 @@ FederationSettings under(const char* filter) {
 }
 
 /// A pilot with vessels all over the sea, and watchers who look elsewhere.
-struct Harbour {
-  explicit Harbour(const char* filter) : rig(Carrier::in_process, under(filter)), pilot(rig.join("pilot")) {
+struct FilteredHarbour {
+  explicit FilteredHarbour(const char* filter) : rig(Carrier::in_process, under(filter)), pilot(rig.join("pilot")) {
     pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
   }
   RegionHandle place(Station& station, const im::Region& bounds) {
@@ -49,7 +49,7 @@ struct Harbour {
 };
 
 TEST(Roles, DecideWhoHearsOfWhatWhereverBothAre) {
-  Harbour harbour("region or team or always");
+  FilteredHarbour harbour("region or team or always");
   const ObjectHandle friendly = harbour.add_vessel(10.0), foreign = harbour.add_vessel(20.0), lighthouse = harbour.add_vessel(30.0);
   Station &watcher = harbour.add_watcher("watcher"), &other = harbour.add_watcher("other");
   harbour.rig.settle();
@@ -66,7 +66,7 @@ TEST(Roles, DecideWhoHearsOfWhatWhereverBothAre) {
 }
 
 TEST(Roles, MayBeSaidBeforeThereIsARegion) {
-  Harbour harbour("team");
+  FilteredHarbour harbour("team");
   Station& watcher = harbour.rig.join("watcher");
   const ObjectHandle object = harbour.pilot.ambassador.register_object_instance(vessel);
   harbour.rig.settle();
@@ -87,7 +87,7 @@ TEST(Roles, MayBeSaidBeforeThereIsARegion) {
 }
 
 TEST(Roles, OfObjectsThatShareARegionAreWhatTheyAgreeIn) {
-  Harbour harbour("team or always");
+  FilteredHarbour harbour("team or always");
   const RegionHandle convoy = harbour.place(harbour.pilot, {5.0, 5.0, 6.0, 6.0});
   const ObjectHandle one = harbour.add_vessel(convoy), other = harbour.add_vessel(convoy);
   Station& watcher = harbour.add_watcher("watcher");
@@ -108,7 +108,7 @@ TEST(Roles, OfObjectsThatShareARegionAreWhatTheyAgreeIn) {
 }
 
 TEST(Roles, EndWithWhoHasThem) {
-  Harbour harbour("team or owner");
+  FilteredHarbour harbour("team or owner");
   Station& first = harbour.add_watcher("first");
   const ObjectHandle object = harbour.add_vessel(10.0);
   harbour.rig.settle();
@@ -135,7 +135,7 @@ TEST(Roles, EndWithWhoHasThem) {
 
 TEST(Roles, ShowAFederateWhatIsItsOwnUnderAnyFilter) {
   for (const char* filter : {"region", "not none", "region and not region", "none and not owner", "grid with dwell(matches=3)"}) {
-    Harbour harbour(filter);
+    FilteredHarbour harbour(filter);
     Station &owner = harbour.add_watcher("owner"), &other = harbour.add_watcher("other");
     const ObjectHandle object = harbour.add_vessel(10.0);
     harbour.tell(owner, {.owner = 7});

@@ -27,7 +27,7 @@ struct Scheme {
 class Scope : public ::testing::TestWithParam<Scheme> {};
 
 /// Vessels and watchers wander over 100 m x 60 m; vessels come and go, and some have no region.
-struct Sea {
+struct WatchedSea {
   static FederationSettings settings(const Scheme& scheme) {
     FederationSettings settings;
     settings.filter = scheme.filter;
@@ -35,7 +35,7 @@ struct Sea {
     settings.filter_settings.world = {0.0, 0.0, 100.0, 60.0};
     return settings;
   }
-  Sea(const Scheme& scheme, unsigned seed) : rig(scheme.carrier, settings(scheme)), random(seed), pilot(rig.join("pilot")) {
+  WatchedSea(const Scheme& scheme, unsigned seed) : rig(scheme.carrier, settings(scheme)), random(seed), pilot(rig.join("pilot")) {
     pilot.ambassador.publish_object_class_attributes(vessel, AttributeSet{position, speed});
     for (int i = 0; i < 6; ++i) {
       Station& watcher = rig.join("watcher " + std::to_string(i));
@@ -113,14 +113,14 @@ struct Sea {
 TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
   const unsigned seed = 20260;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  Sea sea(GetParam(), seed);
+  WatchedSea sea(GetParam(), seed);
   for (int i = 0; i < 40; ++i) sea.add_vessel();
   for (int step = 0; step < 60; ++step) {
     for (int hasty = 0; GetParam().entry_room < 1000 && hasty < 3; ++hasty) sea.change(), sea.rig.round();  // while much is not told yet
     sea.step();
-    for (const Sea::Watcher& watcher : sea.watchers) {
+    for (const WatchedSea::Watcher& watcher : sea.watchers) {
       const Recorder& heard = watcher.station->heard;
-      for (const Sea::Vessel& vessel : sea.vessels) {
+      for (const WatchedSea::Vessel& vessel : sea.vessels) {
         const bool is_due = !vessel.region || (watcher.has_bounds && overlaps(vessel.bounds, watcher.bounds));
         const auto known = heard.objects.find(vessel.object.value);
         const bool is_in_scope = known != heard.objects.end() && known->second.is_in_scope;
@@ -131,7 +131,7 @@ TEST_P(Scope, FollowsRandomMovesAsBruteForceDoesAndInScopeStateIsTheOwners) {
         ASSERT_EQ(known->second.values.at(speed.value), values_of(vessel.speed)) << "step " << step;
       }
       for (const auto& [object, known] : heard.objects) {
-        const bool is_alive = std::any_of(sea.vessels.begin(), sea.vessels.end(), [&](const Sea::Vessel& each) { return each.object.value == object; });
+        const bool is_alive = std::any_of(sea.vessels.begin(), sea.vessels.end(), [&](const WatchedSea::Vessel& each) { return each.object.value == object; });
         ASSERT_TRUE(is_alive) << "removed objects are gone, step " << step;
       }
       for (const auto& [object, count] : heard.discoveries) ASSERT_EQ(count, 1);
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Under, Scope,
                          });
 
 TEST(ScopeWithoutMotion, AnObjectThatEntersBringsItsStateOnceAndOneThatLeavesSaysNoMore) {
-  Sea sea({"region", true, Carrier::in_process}, 1);
+  WatchedSea sea({"region", true, Carrier::in_process}, 1);
   const auto& watcher = sea.watchers.front();
   Ambassador &pilot = sea.pilot.ambassador, &coast = watcher.station->ambassador;
   const ObjectHandle object = pilot.register_object_instance(vessel, "Aurora");
@@ -225,7 +225,7 @@ TEST(ScopeWithoutMotion, WhoComesIntoALargeWorldIsToldItInAsManyFlushesAsItsQueu
 }
 
 TEST(ScopeWithoutMotion, RegionsThatNameDifferentAttributesAddUp) {
-  Sea sea({"region", true, Carrier::in_process}, 1);
+  WatchedSea sea({"region", true, Carrier::in_process}, 1);
   const auto& watcher = sea.watchers.front();
   Ambassador &pilot = sea.pilot.ambassador, &coast = watcher.station->ambassador;
   const RegionHandle near = coast.create_region();

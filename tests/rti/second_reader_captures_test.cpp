@@ -7,8 +7,10 @@
 #include "rti/admission/handshake.h"
 #include "rti/transport/udp.h"
 #include "tests/places.h"
-#include "tests/rti/fjord.h"
+#include "tests/rti/fjord_traffic.h"
+#include "tests/rti/python.h"
 #include "tests/rti/second_reader_session.h"
+#include "tests/rti/seeded.h"
 #include "tests/rti/udp_relay.h"
 #include "tests/temporary_folder.h"
 
@@ -16,14 +18,6 @@ namespace rink::rti::testing {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return text;
-  for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) text += static_cast<char>(letter);
-  return pclose(pipe) == 0 ? text : "failed: " + text;
-}
 
 /// The lines that the second reader prints.
 std::vector<std::string> read_by_python(const std::string& model, const std::string& record, std::string_view key = {}) {
@@ -47,19 +41,10 @@ std::vector<std::string> after(const std::vector<std::string>& lines, const std:
   return found;
 }
 
-bool has_python() { return output_of("python3 -c 'print(1)' 2>/dev/null") == "1\n"; }
-
 void keep(std::string& record, char direction, std::uint32_t connection, Bytes bytes) {
   record += direction;
   record += text_of(values_of(connection, static_cast<std::uint32_t>(bytes.size())));
   record += text_of(bytes);
-}
-
-Nonce nonce_of(unsigned seed) {
-  std::mt19937 random(seed);
-  Nonce nonce;
-  for (std::byte& each : nonce) each = static_cast<std::byte>(random());
-  return nonce;
 }
 
 /// What both ends said, the admission first, then that one joins.
@@ -105,15 +90,6 @@ struct FjordClerk final : FederateAmbassador {
     heard.push_back(line_of(object.value, known.name, names, stamp_text(stamp), hex(values)));
   }
 };
-
-std::vector<std::byte> track_of(double x, double y, float speed_x, float speed_y) {
-  std::vector<std::byte> bytes = values_of(x, y);
-  for (const float speed : {speed_x, speed_y}) {
-    std::vector<std::byte> one = values_of(speed);
-    bytes.insert(bytes.end(), one.rbegin(), one.rend());  // big-endian
-  }
-  return bytes;
-}
 
 TEST(SecondReaderCaptures, FollowsDifferencesToAcknowledgedBaselines) {
   if (!has_python()) GTEST_SKIP() << "there is no python3";

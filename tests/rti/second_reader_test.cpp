@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tests/places.h"
+#include "tests/rti/python.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::rti::testing {
@@ -227,18 +228,10 @@ void arrange(Session& session) {
   session.tick();
 }
 
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return text;
-  for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) text += static_cast<char>(letter);
-  return pclose(pipe) == 0 ? text : "failed: " + text;
-}
-
 class SecondReader : public ::testing::TestWithParam<void (*)(Session&)> {};
 
 TEST_P(SecondReader, HearsEveryByteOfAConversationByTheWirePageAlone) {
-  if (output_of("python3 -c 'print(1)' 2>/dev/null") != "1\n") GTEST_SKIP() << "there is no python3";
+  if (!has_python()) GTEST_SKIP() << "there is no python3";
   Session session;
   GetParam()(session);
   const test::TemporaryFolder folder("second-reader");

@@ -39,8 +39,8 @@ struct Tale final : TransportListener {
 };
 
 /// A connected pair in one process.
-struct Pair {
-  explicit Pair(const std::string& name, const SharedMemorySettings& settings = {}) : server(settings), client(settings) {
+struct ConnectedPair {
+  explicit ConnectedPair(const std::string& name, const SharedMemorySettings& settings = {}) : server(settings), client(settings) {
     server.listen(name);
     connection = client.connect(name);
     for (int i = 0; i < 1000 && (here.open.empty() || there.open.empty()); ++i) server.poll({}, here), client.poll({}, there);
@@ -51,7 +51,7 @@ struct Pair {
 };
 
 TEST(SharedMemory, ABusyConnectionWakesNobody) {
-  Pair pair(own_name("busy"));
+  ConnectedPair pair(own_name("busy"));
   const auto words = bytes_of("24 bytes of an interaction");
   const Bytes part = words;
   for (int i = 0; i < 10'000; ++i) {
@@ -63,7 +63,7 @@ TEST(SharedMemory, ABusyConnectionWakesNobody) {
 }
 
 TEST(SharedMemory, AStreamManyTimesAsLongAsTheRingArrivesInOrder) {
-  Pair pair(own_name("long"), {.ring_size = 4096, .queue_max = 1u << 20, .spin = {}});
+  ConnectedPair pair(own_name("long"), {.ring_size = 4096, .queue_max = 1u << 20, .spin = {}});
   std::mt19937 random(5);
   std::vector<std::byte> sent;
   for (int i = 0; i < 2000; ++i) {

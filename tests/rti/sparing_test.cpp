@@ -6,12 +6,10 @@
 namespace rink::rti::testing {
 namespace {
 
-const AttributeSet motion{position, speed};
-
 /// What a federate holds now, of objects in its scope.
-using State = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::byte>>;
-State state_of(const Historian& heard) {
-  State state;
+using HeldState = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::byte>>;
+HeldState state_of(const Historian& heard) {
+  HeldState state;
   for (const auto& [object, known] : heard.objects)
     if (known.is_in_scope)
       for (const auto& [attribute, value] : known.values) state[{object, attribute}] = value;
@@ -76,7 +74,7 @@ TEST(Sparing, ARaceOfSubscriptionsAndUpdatesEndsInTheSameState) {
           if (is_said) sea->round();
         }
       }
-      std::array<std::deque<State>, 2> states;
+      std::array<std::deque<HeldState>, 2> states;
       for (const std::size_t k : {0u, 1u}) {
         Sea& sea = k == 0 ? spared : unspared;
         sea.settle();

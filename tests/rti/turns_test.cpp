@@ -17,8 +17,8 @@ struct Buoy {
 };
 
 /// Buoys on a sea of 100 m x 100 m, each a point, said by a pilot; watchers who see squares of it.
-struct Sea {
-  explicit Sea(const std::string& filter, Carrier carrier = Carrier::in_process, unsigned seed = 1) : rig(carrier, settings(filter)), pilot(rig.join("pilot")), random(seed) {
+struct BuoyedSea {
+  explicit BuoyedSea(const std::string& filter, Carrier carrier = Carrier::in_process, unsigned seed = 1) : rig(carrier, settings(filter)), pilot(rig.join("pilot")), random(seed) {
     pilot.ambassador.publish_object_class_attributes(ferry, {position, speed, destination});
   }
   static FederationSettings settings(const std::string& filter) {
@@ -79,7 +79,7 @@ struct Sea {
 constexpr const char* four_tiers = "region with tiers(at=0.25 at=0.5 at=0.75)";
 
 /// Sixteen of each tier, by distances of a watcher's middle at (50, 50) who sees 50 m.
-void fill(Sea& sea) {
+void fill(BuoyedSea& sea) {
   for (int tier = 0; tier < 4; ++tier)
     for (int i = 0; i < 16; ++i) {
       const double far = 6.0 + 12.0 * tier, angle = 0.3 + 0.39 * i;
@@ -89,7 +89,7 @@ void fill(Sea& sea) {
 int tier_of(std::size_t buoy) { return static_cast<int>(buoy / 16); }
 
 TEST(Tiers, AreToldEverySecondFourthAndEighthMatch) {
-  Sea sea(four_tiers);
+  BuoyedSea sea(four_tiers);
   fill(sea);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();
@@ -116,7 +116,7 @@ TEST(Tiers, AreToldEverySecondFourthAndEighthMatch) {
 }
 
 TEST(Tiers, ThatBecomeOthersTellAtOnceWhatIsLate) {
-  Sea sea("region with tiers(at=0.01 at=0.02 at=0.03 at=0.04 at=0.05 at=0.5)");  // the last is told every 64th match
+  BuoyedSea sea("region with tiers(at=0.01 at=0.02 at=0.03 at=0.04 at=0.05 at=0.5)");  // the last is told every 64th match
   Buoy& buoy = sea.add_buoy(95.0, 50.0);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();
@@ -140,7 +140,7 @@ TEST(Tiers, ThatBecomeOthersTellAtOnceWhatIsLate) {
 }
 
 TEST(Tiers, TellAllAttributesThatAreLateInOne) {
-  Sea sea("region with tiers(at=0.01 at=0.02)");
+  BuoyedSea sea("region with tiers(at=0.01 at=0.02)");
   Buoy& buoy = sea.add_buoy(95.0, 50.0);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();
@@ -155,7 +155,7 @@ TEST(Tiers, TellAllAttributesThatAreLateInOne) {
 }
 
 TEST(Tiers, OfSeveralRegionsGoByTheNearest) {
-  Sea sea("region with tiers(at=0.1 at=0.2 at=0.3 at=0.4 at=0.5)");
+  BuoyedSea sea("region with tiers(at=0.1 at=0.2 at=0.3 at=0.4 at=0.5)");
   Buoy& buoy = sea.add_buoy(95.0, 50.0);
   Station& watcher = sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   const RegionHandle close = watcher.ambassador.create_region();
@@ -172,7 +172,7 @@ TEST(Tiers, OfSeveralRegionsGoByTheNearest) {
 
 /// Everything wanders, comes and goes; whoever is in scope is never staler than its tier allows, and right once all is quiet.
 void wander(const std::string& filter, unsigned seed, int stale_max) {
-  Sea sea(filter, Carrier::in_process, seed);
+  BuoyedSea sea(filter, Carrier::in_process, seed);
   SCOPED_TRACE(filter + ", seed " + std::to_string(seed));
   const auto box = [&] {
     const double x = sea.uniform(0.0, 100.0), y = sea.uniform(0.0, 100.0), half = sea.uniform(5.0, 40.0);
@@ -231,7 +231,7 @@ TEST(Budget, IsKeptAndStarvesNobody) {
 
 TEST(Budget, BoundsTheBytesOfAMatchAndTellsTheNearestMoreOften) {
   constexpr std::uint64_t budget = 60;  // ten of the sixty-four: as many as a tier has would go round in step
-  Sea sea("region with priority(budget=60)");
+  BuoyedSea sea("region with priority(budget=60)");
   fill(sea);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   for (int match = 0; match < 20; ++match) sea.round();
@@ -255,7 +255,7 @@ TEST(Budget, BoundsTheBytesOfAMatchAndTellsTheNearestMoreOften) {
 
 /// Who enters all the time can't keep those waiting who are there, nor these the former.
 TEST(Budget, IsSharedByStatesOnEntryAndUpdates) {
-  Sea sea("region with priority(budget=20)");
+  BuoyedSea sea("region with priority(budget=20)");
   for (int i = 0; i < 8; ++i) sea.add_buoy(52.0 + i, 50.0);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   for (int i = 0; i < 60; ++i) sea.round();
@@ -270,7 +270,7 @@ TEST(Budget, IsSharedByStatesOnEntryAndUpdates) {
 }
 
 TEST(Turns, CostNothingUnderAFilterWithout) {
-  Sea sea("region with priority");
+  BuoyedSea sea("region with priority");
   fill(sea);
   sea.add_watcher({0.0, 0.0, 100.0, 100.0});
   sea.rig.settle();

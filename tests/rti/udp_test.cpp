@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Ear final : TransportListener {
+struct DatagramEar final : TransportListener {
   std::vector<ConnectionId> open;
   std::vector<std::vector<std::byte>> datagrams;
   std::vector<std::byte> stream;
@@ -29,7 +29,7 @@ struct Ear final : TransportListener {
 };
 
 template <class Condition>
-bool pump(UdpTransport& server, Ear& here, Transport& client, Ear& there, Condition is_done) {
+bool pump(UdpTransport& server, DatagramEar& here, Transport& client, DatagramEar& there, Condition is_done) {
   for (const auto start = std::chrono::steady_clock::now(); !is_done();) {
     if (std::chrono::steady_clock::now() - start > 10s) return false;
     server.poll(200us, here);
@@ -42,7 +42,7 @@ class Udp : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Udp, CarriesDatagramsWholeBothWays) {
   UdpTransport server({.tcp = {}, .use_offload = GetParam()}), client({.tcp = {}, .use_offload = GetParam()});
-  Ear here, there;
+  DatagramEar here, there;
   const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
   ASSERT_TRUE(pump(server, here, client, there, [&] { return !here.open.empty() && server.datagram_max(here.open[0]) > 0 && client.datagram_max(connection) > 0; }));
   const std::size_t size_max = server.datagram_max(here.open[0]);
@@ -61,7 +61,7 @@ TEST_P(Udp, CarriesDatagramsWholeBothWays) {
     for (const auto& whole : wholes) datagrams.push_back({Bytes(whole).first(whole.size() / 3), Bytes(whole).subspan(whole.size() / 3)});
     (burst % 3 == 0 ? client : server).send_datagrams(burst % 3 == 0 ? connection : here.open[0], datagrams);
     (burst % 3 == 0 ? client : server).push();
-    Ear& ear = burst % 3 == 0 ? here : there;
+    DatagramEar& ear = burst % 3 == 0 ? here : there;
     ASSERT_TRUE(pump(server, here, client, there, [&] { return ear.datagrams.size() >= wholes.size(); }));
     EXPECT_EQ(ear.datagrams, wholes);
     ear.datagrams.clear();
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Offload, Udp, ::testing::Bool(), [](const auto& info) {
 TEST(Udp, AClientOfPlainTcpHasTheStreamOnly) {
   UdpTransport server;
   TcpTransport client;
-  Ear here, there;
+  DatagramEar here, there;
   const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
   const auto words = bytes_of("RK is no greeting");  // but begins like one
   const Bytes part = words;
@@ -125,7 +125,7 @@ std::vector<std::byte> control(std::uint64_t key, std::uint8_t kind, std::uint64
 TEST(Udp, OnlyTheHostOfTheStreamMayOpenTheWayAndOnlyByProvingItsAddress) {
   UdpTransport server;
   TcpTransport client;  // speaks the protocol by hand
-  Ear here, there;
+  DatagramEar here, there;
   const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
   const auto magic = bytes_of("RKDG");
   const Bytes part = magic;
@@ -177,7 +177,7 @@ TEST(Udp, OnlyTheHostOfTheStreamMayOpenTheWayAndOnlyByProvingItsAddress) {
 TEST(Udp, WhereItDoesNotGetThroughTheStreamCarriesOnAndItIsCounted) {
   TcpTransport server;  // promises a port where nobody listens
   UdpTransport client;
-  Ear here, there;
+  DatagramEar here, there;
   const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
   std::uint16_t dead_port = 0;
   {

@@ -6,10 +6,12 @@
 #include <array>
 #include <string>
 
+#include "tests/rti/instants.h"
+
 namespace rink::rti {
 namespace {
 
-constexpr std::chrono::nanoseconds no_wait{0};
+using namespace testing;
 
 Bytes bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 

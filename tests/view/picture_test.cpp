@@ -11,7 +11,7 @@ namespace {
 constexpr double wide = 16.0 / 9.0;
 const physics::Field table{.length = 2.4, .width = 1.2, .goal_width = 0.4};
 
-MatchSight match_sight() {
+MatchSight bat_and_puck() {
   MatchSight sight;
   sight.field = table;
   sight.goals_to_win = 5;
@@ -60,7 +60,7 @@ TEST(Keys, MoveTheBatWhereTheyPointFromEveryEnd) {
 }
 
 TEST(Pictures, AreAPureFunctionOfTheSight) {
-  const MatchSight sight = match_sight();
+  const MatchSight sight = bat_and_puck();
   const Picture a = picture_of(sight, {}, {}, wide), b = picture_of(sight, {}, {}, wide);
   ASSERT_EQ(a.pieces.size(), 2u);
   EXPECT_EQ(a.camera, b.camera);
@@ -70,7 +70,7 @@ TEST(Pictures, AreAPureFunctionOfTheSight) {
 }
 
 TEST(Pictures, TurnTheScoreWithTheEndItIsReadFrom) {
-  MatchSight sight = match_sight();
+  MatchSight sight = bat_and_puck();
   sight.score = {3, 1};
   const Scoreboard left = picture_of(sight, {}, {.viewpoint = Viewpoint::left_end}, wide).board, right = picture_of(sight, {}, {.viewpoint = Viewpoint::right_end}, wide).board;
   EXPECT_EQ(left.first, 3u);
@@ -80,7 +80,7 @@ TEST(Pictures, TurnTheScoreWithTheEndItIsReadFrom) {
 }
 
 TEST(Pictures, GlowAtTheEndWhereTheGoalFellAndFade) {
-  MatchSight sight = match_sight();
+  MatchSight sight = bat_and_puck();
   sight.scorer = game::Team::left;
   const Picture fresh = picture_of(sight, {}, {}, wide);
   EXPECT_FLOAT_EQ(fresh.right_glow, 1.0f);
@@ -90,7 +90,7 @@ TEST(Pictures, GlowAtTheEndWhereTheGoalFellAndFade) {
 }
 
 TEST(Pictures, SayInEveryPhaseWhatIsGoingOn) {
-  MatchSight sight = match_sight();
+  MatchSight sight = bat_and_puck();
   const auto says = [&](const std::string& words) {
     const Picture picture = picture_of(sight, {}, {}, wide);
     return std::ranges::any_of(picture.texts, [&](const Text& text) { return text.words.find(words) != std::string::npos; });

@@ -29,6 +29,7 @@
 #include "game/net/peer/viewing_options.h"
 #include "game/net/record_file.h"
 #include "game/net/scene_choice.h"
+#include "game/net/speak_as.h"
 
 namespace {
 

@@ -12,6 +12,14 @@ struct Colour {
   float red = 0.0f, green = 0.0f, blue = 0.0f, alpha = 1.0f;
 };
 
+inline constexpr Colour clear{0.0f, 0.0f, 0.0f, 0.0f};
+
+/// The same colour with another alpha.
+inline Colour faded(Colour colour, float alpha) {
+  colour.alpha = alpha;
+  return colour;
+}
+
 /// Places and sizes are those of the field [m].
 struct OverlayRectangle {
   double low_x = 0.0, low_y = 0.0, high_x = 0.0, high_y = 0.0;

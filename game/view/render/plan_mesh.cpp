@@ -8,12 +8,12 @@
 namespace rink::view {
 namespace {
 
-constexpr Colour ice{0.76f, 0.845f, 0.93f, 1.0f}, blue{0.16f, 0.36f, 0.70f, 1.0f}, red{0.84f, 0.20f, 0.22f, 1.0f}, wood{0.47f, 0.27f, 0.17f, 1.0f}, steel{0.5f, 0.53f, 0.58f, 1.0f};
-constexpr int segments = 96;
+constexpr Colour ice{0.76f, 0.845f, 0.93f, 1.0f}, blue{0.16f, 0.36f, 0.70f, 1.0f}, red{0.84f, 0.20f, 0.22f, 1.0f}, wood{0.47f, 0.27f, 0.17f, 1.0f}, edging{0.5f, 0.53f, 0.58f, 1.0f};
+constexpr int arc_segments = 96;
 
 Colour mixed(const Colour& a, const Colour& b, float part) { return {std::lerp(a.red, b.red, part), std::lerp(a.green, b.green, part), std::lerp(a.blue, b.blue, part), 1.0f}; }
 
-class Mesh {
+class PlanMesh {
  public:
   void vertex(float x, float y, const Colour& colour) { rows_.insert(rows_.end(), {x, y, colour.red, colour.green, colour.blue}); }
   void box(float x0, float y0, float x1, float y1, const Colour& colour) {
@@ -21,8 +21,8 @@ class Mesh {
   }
   /// The part of a ring between two radii from angle `from` on, `turn` [rad] long.
   void ring(float x, float y, float inner, float outer, float from, float turn, const Colour& colour) {
-    for (int i = 0; i < segments; ++i) {
-      const float a = from + turn * static_cast<float>(i) / segments, b = from + turn * static_cast<float>(i + 1) / segments;
+    for (int i = 0; i < arc_segments; ++i) {
+      const float a = from + turn * static_cast<float>(i) / arc_segments, b = from + turn * static_cast<float>(i + 1) / arc_segments;
       const auto at = [&](float angle, float radius) { vertex(x + radius * std::cos(angle), y + radius * std::sin(angle), colour); };
       at(a, inner), at(a, outer), at(b, outer), at(a, inner), at(b, outer), at(b, inner);
     }
@@ -38,9 +38,9 @@ constexpr float pi = 3.14159265f;
 }  // namespace
 
 std::vector<float> plain_mesh(const Table& table) {
-  Mesh mesh;
+  PlanMesh mesh;
   const float length = table.length, width = table.width, unit = width / 1.2f, fine = std::min(unit, 2.2f), thick = 0.075f * unit, trim = 0.006f * unit, band = 0.009f * unit, middle = 0.5f * width;
-  mesh.box(-thick - trim, -thick - trim, length + thick + trim, width + thick + trim, steel);
+  mesh.box(-thick - trim, -thick - trim, length + thick + trim, width + thick + trim, edging);
   mesh.box(-thick, -thick, length + thick, width + thick, wood);
   mesh.box(0.0f, 0.0f, length, width, ice);
   mesh.ring(0.5f * length, middle, 0.0f, 0.19f * unit, 0.0f, 2.0f * pi, mixed(ice, blue, 0.09f));
