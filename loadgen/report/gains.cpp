@@ -9,7 +9,6 @@
 namespace rink::loadgen {
 namespace {
 
-
 /// Whether the two play the same game for the same crowd.
 bool is_comparable(const Cell& a, const Cell& b) {
   return a.mode == b.mode && a.clients == b.clients && a.pucks == b.pucks && a.bats == b.bats && a.server_cores == b.server_cores;

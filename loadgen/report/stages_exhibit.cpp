@@ -11,7 +11,6 @@
 namespace rink::loadgen {
 namespace {
 
-
 /// An expression without its numbers, and the numbers: "aura with tiers(at)" and "0.3 0.6".
 struct Shape {
   std::string form, numbers;
