@@ -215,48 +215,80 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
   }
 }
 
-/// Asks for the further lines of cells to be read soon: where those are is in memory that must be asked for before.
-void LineIndex::ask_further(std::span<const Visit> visits, std::size_t i) const {
-  constexpr std::size_t soon = 4, later = 8;
-  if (i + later < visits.size() && lines_[visits[i + later].line].has_more()) __builtin_prefetch(&runs_[visits[i + later].line]);
-  if (i + soon >= visits.size() || !lines_[visits[i + soon].line].has_more()) return;
-  const Run run = runs_[visits[i + soon].line];
-  for (std::uint32_t further = run.first; further < run.first + run.size; ++further) __builtin_prefetch(&lines_[further]);
+/// Compares the first lines, which were asked for, and lists what they say. Whether a line says anything is anybody's guess, so nothing branches on it.
+template <class Compare>
+void LineIndex::read_lines(Answers& answers) const {
+  const std::span<const Visit> visits = answers.visits.span();
+  answers.hits.resize(visits.size()), answers.crowded.resize(visits.size());
+  Hit* hit = answers.hits.data();
+  Visit* crowded = answers.crowded.data();
+  for (const Visit& visit : visits) {
+    const Line& line = lines_[visit.line];
+    const LineOutcome outcome = Compare(visit.asking)(line);
+    *hit = {&line, visit.asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
+    hit += (outcome.changed | outcome.tied) != 0 ? 1 : 0;
+    *crowded = visit;
+    crowded += line.has_more() ? 1 : 0;
+    answers.candidate_count += line.count();
+  }
+  answers.hits.resize(static_cast<std::size_t>(hit - answers.hits.data()));
+  answers.crowded.resize(static_cast<std::size_t>(crowded - answers.crowded.data()));
 }
 
-/// Reads the lines that were asked for.
+/// The same of further lines: where those are is in memory that must be asked for before.
 template <class Compare>
-void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
-  const auto compare_with = [&](const Line& line, const Visit& visit, const Compare& compare) {
-    const LineOutcome outcome = compare(line);
-    if ((outcome.changed | outcome.tied) == 0) [[likely]] return;
-    const std::uint64_t asker = std::uint64_t{askers.probe(visit.asker).id} << 32;
-    for (unsigned rest = outcome.changed & ~outcome.tied; rest != 0; rest &= rest - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-      answers.found.push_back(asker | line.id(lane) | ((outcome.entered >> lane & 1u) != 0 ? entered_bit : 0u));
+void LineIndex::read_further(Answers& answers) const {
+  constexpr std::size_t soon = 4, later = 8;
+  const std::span<const Visit> visits = answers.crowded.span();
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    if (i + later < visits.size()) __builtin_prefetch(&runs_[visits[i + later].line]);
+    if (i + soon < visits.size()) {
+      const Run run = runs_[visits[i + soon].line];
+      for (std::uint32_t further = run.first; further < run.first + run.size; ++further) __builtin_prefetch(&lines_[further]);
     }
-    for (unsigned rest = outcome.tied; rest != 0; rest &= rest - 1) {
-      const std::uint32_t id = line.id(static_cast<unsigned>(std::countr_zero(rest)));
+    const Run run = runs_[visits[i].line];
+    const Compare compare(visits[i].asking);
+    const std::size_t known = answers.hits.size();
+    answers.hits.resize(known + run.size);
+    Hit* hit = answers.hits.data() + known;
+    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) {
+      const LineOutcome outcome = compare(*further);
+      *hit = {further, visits[i].asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
+      hit += (outcome.changed | outcome.tied) != 0 ? 1 : 0;
+    }
+    answers.hits.resize(static_cast<std::size_t>(hit - answers.hits.data()));
+    answers.candidate_count += std::uint64_t{run.size} * lanes;
+  }
+}
+
+/// From lines to boxes.
+void LineIndex::take_hits(const ProbeList& askers, const RegionHistory& regions, Answers& answers) {
+  answers.found.reserve(answers.found.size() + lanes * answers.hits.size() + 1);
+  for (const Hit& hit : answers.hits.span()) {
+    const std::uint64_t asker = std::uint64_t{askers.probe(hit.asker).id} << 32;
+    const auto change = [&](unsigned lane) { return asker | hit.line->id(lane) | ((hit.entered >> lane & 1u) != 0 ? entered_bit : 0u); };
+    // Mostly there are one or two, which are written without asking how many.
+    const unsigned changed = hit.changed & ~unsigned{hit.tied}, second = changed & (changed - 1u);
+    const std::size_t known = answers.found.size();
+    std::uint64_t* const found = answers.found.data() + known;
+    found[0] = change(static_cast<unsigned>(std::countr_zero(changed | 1u << (lanes - 1))));
+    found[1] = change(static_cast<unsigned>(std::countr_zero(second | 1u << (lanes - 1))));
+    answers.found.resize(known + (changed != 0 ? 1 : 0) + (second != 0 ? 1 : 0));
+    for (unsigned rest = second & (second - 1u); rest != 0; rest &= rest - 1) answers.found.push_back(change(static_cast<unsigned>(std::countr_zero(rest))));
+    for (unsigned rest = hit.tied; rest != 0; rest &= rest - 1) {
+      const std::uint32_t id = hit.line->id(static_cast<unsigned>(std::countr_zero(rest)));
       if (id == Line::nobody) continue;
       regions.prefetch(id);
       answers.doubts.push_back(asker | id);
     }
-  };
-  const std::span<const Visit> visits = answers.visits.span();
-  // In a crowd nearly every cell has further lines.
-  const bool is_crowded = lines_.size() > runs_.size() + runs_.size() / 16;
-  for (std::size_t i = 0; i < visits.size(); ++i) {
-    const Visit& visit = visits[i];
-    if (is_crowded) ask_further(visits, i);
-    const Line& line = lines_[visit.line];
-    const Compare compare(visit.asking);
-    answers.candidate_count += line.count();
-    compare_with(line, visit, compare);
-    if (!line.has_more()) continue;
-    const Run run = runs_[visit.line];
-    answers.candidate_count += std::uint64_t{run.size} * lanes;
-    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) compare_with(*further, visit, compare);
   }
+}
+
+template <class Compare>
+void LineIndex::read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const {
+  read_lines<Compare>(answers);
+  read_further<Compare>(answers);
+  take_hits(askers, regions, answers);
   answers.visits.clear();
   for (const std::uint64_t doubt : answers.doubts.span()) {
     const Verdict verdict = judge(static_cast<std::uint32_t>(doubt >> 32), static_cast<std::uint32_t>(doubt));

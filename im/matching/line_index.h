@@ -24,7 +24,9 @@ class LineIndex {
     Buffer<std::uint64_t> found;  ///< the asker's id, and below it what he found, with `entered_bit`
     std::uint64_t candidate_count = 0;
     void clear() { found.clear(), candidate_count = 0; }
-    std::size_t bytes() const { return sizeof(std::uint64_t) * (found.capacity() + doubts.capacity()) + sizeof(Visit) * visits.capacity(); }
+    std::size_t bytes() const {
+      return sizeof(std::uint64_t) * (found.capacity() + doubts.capacity()) + sizeof(Visit) * (visits.capacity() + crowded.capacity()) + sizeof(Hit) * hits.capacity();
+    }
 
    private:
     friend class LineIndex;
@@ -32,7 +34,14 @@ class LineIndex {
       std::uint64_t asking;  // edges now and before within the line's cell
       std::uint32_t line, asker;
     };
-    Buffer<Visit> visits;
+    /// A line with boxes that changed or tied, a bit for each.
+    struct Hit {
+      const Line* line;
+      std::uint32_t asker;
+      std::uint8_t changed, entered, tied;
+    };
+    Buffer<Visit> visits, crowded;  // those of cells with further lines once more
+    Buffer<Hit> hits;
     Buffer<std::uint64_t> doubts;  // the asker's id, and below it whom he may have found
   };
 
@@ -53,6 +62,7 @@ class LineIndex {
 
  private:
   using Visit = Answers::Visit;
+  using Hit = Answers::Hit;
   static constexpr std::uint32_t lanes = Line::lanes;
 
   /// Of a cell: its further lines, and for how many there is room.
@@ -75,7 +85,11 @@ class LineIndex {
   template <class Compare>
   void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
   void visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& visits) const;
-  void ask_further(std::span<const Visit> visits, std::size_t i) const;
+  template <class Compare>
+  void read_lines(Answers& answers) const;
+  template <class Compare>
+  void read_further(Answers& answers) const;
+  static void take_hits(const ProbeList& askers, const RegionHistory& regions, Answers& answers);
   template <class Compare>
   void read(const ProbeList& askers, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
 
