@@ -14,7 +14,7 @@ namespace {
 constexpr CellShape box_cell_shape{32.0, 6.0, 2.0};
 
 /// Boxes are followed until they may be this part of a column from their cells: farther, questions look at so many more that binning anew is cheaper.
-constexpr float drift_max = 0.25f;
+constexpr float drift_max = 0.65f;
 /// Nor do they keep cells when their hulls have become so many times as wide.
 constexpr float growth_max = 1.25f;
 /// The rounding of a drift is bounded for as many.
@@ -81,11 +81,12 @@ void BoxIndex::build() {
   count_cells();
   sort();
   follow_count_ = 0;
+  may_follow_ = true;
 }
 
 bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
   assert(is_moving_);
-  if (++follow_count_ > follow_max) return false;
+  if (++follow_count_ > follow_max || !may_follow_) return false;
   std::swap(before_, now_);
   const Advancing boxes{ids_.data(), regions, projection_, std::as_const(before_).columns(), now_.columns()};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -94,6 +95,9 @@ bool BoxIndex::follow(const RegionHistory& regions, Instructions instructions) {
     take_up(advance(instructions)(boxes, starts_[built.first_cell], starts_[built.first_cell + built.cell_count()], is_exact_), level);
     const auto is_worth_it = [](const CellAxis& axis, const CellAxis& before) { return axis.drift * axis.cells_per_metre <= drift_max && axis.widest <= growth_max * before.widest; };
     if (!is_worth_it(level.x, built.x) || !is_worth_it(level.y, built.y)) return false;
+    // One step more like this and the next pass over all would be for nothing.
+    const auto leaves_room = [](const CellAxis& axis, const CellAxis& before) { return (2.0f * axis.drift - before.drift) * axis.cells_per_metre <= drift_max; };
+    may_follow_ = may_follow_ && leaves_room(level.x, built.x) && leaves_room(level.y, built.y);
   }
   return true;
 }

@@ -64,6 +64,7 @@ class BoxIndex {
   SizeLevels sizes_;
   CellLevels levels_;
   std::uint32_t follow_count_ = 0;  // since it was built
+  bool may_follow_ = true;  // as far as the last step tells
   // As staged; the buffers have room for what was announced.
   std::size_t staged_count_ = 0;
   Buffer<FloatBox> staged_before_, staged_now_;
