@@ -201,6 +201,7 @@ class BasicEngine {
 
   // engine_prediction.cpp
   void predict(std::uint32_t body);
+  std::uint32_t predict_counting(std::uint32_t body);
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);
   void predict_side_wall(std::uint32_t body);
@@ -208,7 +209,8 @@ class BasicEngine {
   void predict_curved_walls(std::uint32_t body);
   void predict_mouth(std::uint32_t body);
   void predict_pairs(std::uint32_t body, std::uint32_t count);
-  void predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count);
+  template <bool counts>
+  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count);
   void predict_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_release(std::uint32_t body);

@@ -41,33 +41,57 @@ Real BasicEngine<Real>::restitution(std::uint32_t body, Partner p) const {
 }
 
 /// Two pucks that nothing holds, hitting each other fast and giving back all: nearly every event of a gas. The arithmetic of collide() without its questions, so the same
-/// bits. False, with nothing done, for anything else.
+/// bits. False, with nothing done, for anything else. A third one that touches matters to a journal alone; who is near is looked at where the next events are predicted, so what was
+/// done until then is taken back if there is one.
 template <class Real>
 bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time) {
   if (!is_body(p)) return false;
   const std::uint32_t low = std::min(body, p), high = std::max(body, p);
   Body &a = bodies_[low], &b = bodies_[high];
   if ((a.flags | b.flags) != 0 || a.kind != BodyKind::puck || b.kind != BodyKind::puck || !has_free_impacts_ || spec_.restitution(a.material, b.material) != 1.0) return false;
-  if (is_crowded(body, p) || (journal_ != nullptr && has_company(body, p, time))) return false;
+  if (is_crowded(body, p)) return false;
+  const bool is_counting = journal_ != nullptr && curved_count_ == 0 && counts_touching<Real>();
+  if (journal_ != nullptr && !is_counting && has_company(body, p, time)) return false;
   const Real elapsed_a = a.time < time ? time - a.time : 0.0, elapsed_b = b.time < time ? time - b.time : 0.0;
   const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b, by = b.y + b.vy * elapsed_b;
   const Real x = ax - bx, y = ay - by;
   if (x == 0.0 || y == 0.0) return false;  // in line with an axis they might come to rest on each other
-  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy), length_max = std::abs(x) + std::abs(y);
+  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy), length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
   if (!(approach >= 1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max)) return false;
-  note(EventKind::puck_puck, time, low, high);
-  counters_.evaluations += (a.time < time) + (b.time < time);
-  counters_.bodies_touched += 2;
-  if (journal_ != nullptr) journal_->keep_flight(low, a), journal_->keep_flight(high, b);
-  const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * (x * x + y * y));
+  const Flight<Real> before_a = a, before_b = b;
+  const Slot slot_a = slots_[low], slot_b = slots_[high];
+  const std::uint64_t predictions = counters_.predictions;
+  const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
   b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
-  if (journal_ != nullptr) journal_->enter_impact(low, a, a.mouth, high, b, b.mouth);
-  predict(low);
-  predict(high);
+  if (is_counting) {
+    const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
+    const bool is_alone = square <= touching * touching && predict_counting(low) == 2 && predict_counting(high) == 2;  // each itself and the other
+    if (!is_alone) {
+      static_cast<Flight<Real>&>(a) = before_a, static_cast<Flight<Real>&>(b) = before_b;
+      --a.version, --b.version;
+      slots_[low] = slot_a, slots_[high] = slot_b;
+      counters_.predictions = predictions;
+      return false;
+    }
+  }
+  note(EventKind::puck_puck, time, low, high);
+  counters_.evaluations += (before_a.time < time) + (before_b.time < time);
+  counters_.bodies_touched += 2;
+  if (journal_ != nullptr) {
+    journal_->keep_flight(low, before_a), journal_->keep_flight(high, before_b);
+    journal_->enter_impact(low, a, a.mouth, high, b, b.mouth);
+  }
+  if (is_counting) {
+    enqueue(low);
+    enqueue(high);
+  } else {
+    predict(low);
+    predict(high);
+  }
   return true;
 }
 

@@ -41,6 +41,19 @@ void BasicEngine<Real>::predict(std::uint32_t body) {
   enqueue(body);
 }
 
+/// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many touch it now, itself included: never too few, hardly ever too many.
+template <class Real>
+std::uint32_t BasicEngine<Real>::predict_counting(std::uint32_t body) {
+  slots_[body].impact_time = infinity;
+  slots_[body].partner = partner::none;
+  slots_[body].is_tied = false;
+  predict_field(body);
+  candidates_.resize(grid_.collected_max());
+  const std::uint32_t count = grid_.collect(body, candidates_.data());
+  counters_.predictions += count - 1;  // of the body with itself
+  return predict_straight_pairs<true>(body, candidates_.data(), count);
+}
+
 template <class Real>
 void BasicEngine<Real>::predict_field(std::uint32_t body) {
   const Body& b = bodies_[body];
@@ -171,7 +184,8 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
     const auto is_curved = [&](std::uint32_t other) { return (bodies_[other].flags & curved) != 0; };
     std::uint32_t* const straight_end = curved_count_ == 0 ? near + count : std::partition(near, near + count, [&](std::uint32_t other) { return !is_curved(other); });
     for (std::uint32_t* other = straight_end; other != near + count; ++other) predict_curved_pair(body, *other);
-    return predict_straight_pairs(body, near, static_cast<std::uint32_t>(straight_end - near));
+    predict_straight_pairs<false>(body, near, static_cast<std::uint32_t>(straight_end - near));
+    return;
   }
   for (std::uint32_t k = 0; k < count; ++k)
     if (near[k] != body) predict_pair(body, near[k]);
@@ -179,13 +193,16 @@ void BasicEngine<Real>::predict_pairs(std::uint32_t body, std::uint32_t count) {
 
 /// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets whom.
 template <class Real>
-void BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count) {
+template <bool counts>
+std::uint32_t BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count) {
   Slot& slot = slots_[body];
+  std::uint32_t touching = 0;
   for (std::uint32_t begin = 0; begin < count; begin += flight_max) {
     const std::uint32_t asked = std::min(flight_max, count - begin);
     // The slack keeps those that come within the same instant.
     const Real latest = slot.impact_time * (1.0 + 4e-15 * fineness<Real>) + Real(instant);
-    const Meeting<Real> first = first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
+    const Meeting<Real> first = counts ? first_meeting_counting<Real>(bodies_.data(), body, near + begin, asked, latest) : first_meeting<Real>(bodies_.data(), body, near + begin, asked, latest);
+    touching += first.touching;
     const bool is_tied = first.second_time <= first.time + Real(instant) || std::abs(first.time - slot.impact_time) <= Real(instant);
     if (first.time < infinity && is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
@@ -200,6 +217,7 @@ void BasicEngine<Real>::predict_straight_pairs(std::uint32_t body, std::uint32_t
     slot.is_tied = slot.is_tied && !is_earlier;
     slot.partner_version = is_earlier ? version : slot.partner_version;
   }
+  return touching;
 }
 
 /// Both positions are taken at the later of the two last events, so that the result depends on nothing but the two states.

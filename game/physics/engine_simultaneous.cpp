@@ -18,8 +18,6 @@ constexpr int cycles_max = 4;                 // of rounds and yielding
 constexpr std::uint64_t endless_events = 64;  // at one instant: then too
 /// Gaps within so many roundings of an offset are none.
 constexpr double touch_roundings = 16.0;
-/// Bodies that far apart do not touch, whatever the roundings [m].
-constexpr double clear_of_touching = 1e-6;
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
 template <class Real>
 constexpr Real rest_of_closing = 4e-13 * fineness<Real>;

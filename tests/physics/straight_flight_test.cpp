@@ -56,6 +56,41 @@ TEST(FirstMeeting, HasTheSameBitsTwoOrFourAtATimeAsOneByOne) {
   EXPECT_GT(tied, 500);
 }
 
+TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
+  if (!counts_touching<double>()) GTEST_SKIP() << "this processor takes two at a time at most";
+  std::mt19937_64 random(9);
+  std::uint32_t touched = 0, apart = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
+    std::vector<Flight<double>> discs = crowd_of(random, count + 1);
+    Flight<double>& own = discs[0];
+    own.time = 0.1;  // nobody's event is later, as at an impact
+    // Every third is put where it is nearly in touch then.
+    for (std::uint32_t k = 1; k <= count; k += 3) {
+      Flight<double>& other = discs[k];
+      const double angle = uniform(random, 0.0, 6.3), distance = own.radius + other.radius + clear_of_touching * (random() % 2 == 0 ? uniform(random, -0.1, 0.9) : uniform(random, 1.1, 3.0));
+      other.x = own.x + distance * std::cos(angle) - other.vx * (0.1 - other.time), other.y = own.y + distance * std::sin(angle) - other.vy * (0.1 - other.time);
+    }
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t k = 0; k < count; ++k) near.push_back(k);
+    near.resize(flight_max + 8);
+    std::uint32_t expected = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Flight<double>& other = discs[k];
+      const double distance = std::hypot(other.x + other.vx * (0.1 - other.time) - own.x, other.y + other.vy * (0.1 - other.time) - own.y);
+      expected += k == 0 || distance <= own.radius + other.radius + clear_of_touching;
+    }
+    const Meeting<double> plain = first_meeting(discs.data(), 0, near.data(), count, 1.0), counting = first_meeting_counting(discs.data(), 0, near.data(), count, 1.0);
+    ASSERT_EQ(counting.touching, expected) << "round " << round;
+    ASSERT_EQ(counting.time, plain.time) << "round " << round;
+    ASSERT_EQ(counting.other, plain.other) << "round " << round;
+    ASSERT_EQ(counting.second_time, plain.second_time) << "round " << round;
+    touched += expected, apart += count - expected;
+  }
+  EXPECT_GT(touched, 20'000u);
+  EXPECT_GT(apart, 20'000u);
+}
+
 /// Discs that graze each other at a gap of some roundings: what the best event known happens to be decides nothing but whether the meeting comes too late.
 TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {
   std::mt19937_64 random(8);
