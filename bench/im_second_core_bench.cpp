@@ -127,11 +127,11 @@ void match_dynamic(benchmark::State& state, std::size_t regions, std::size_t mov
 
 const bool is_registered = [] {
   const auto add = [](const std::string& name, auto run) { benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(300); };
-  for (const std::size_t regions : {1'024u, 2'048u, 4'096u, 8'192u, 16'384u, 32'768u}) {
+  for (const std::size_t regions : {2'048u, 8'192u, 16'384u, 32'768u, 65'536u, 131'072u}) {
     add("im/second_core/static/n:" + std::to_string(regions), [=](benchmark::State& state) { match_static(state, regions); });
     add("im/second_core/all_move/n:" + std::to_string(regions), [=](benchmark::State& state) { match_dynamic(state, regions, regions / 2); });
   }
-  for (const std::size_t movers : {256u, 512u, 1'024u, 2'048u, 4'096u})
+  for (const std::size_t movers : {512u, 2'048u, 4'096u, 8'192u, 16'384u})
     add("im/second_core/few_move/n:131072/movers:" + std::to_string(movers), [=](benchmark::State& state) { match_dynamic(state, 131'072, movers); });
   return true;
 }();

@@ -7,7 +7,7 @@ namespace rink::im {
 
 /// Below so many a job is done alone: regions of a match in which all are looked at, and movers of one in which few move.
 struct WorthSharing {
-  std::size_t regions = 8192, movers = 2048;
+  std::size_t regions = 32768, movers = 8192;
 };
 
 class Worker {
