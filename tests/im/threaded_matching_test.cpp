@@ -45,6 +45,7 @@ Answer answer_of(const BatchMatcher& matcher) {
 
 TEST(ThreadedMatching, ABatchIsTheSameWithASecondCore) {
   rti::SecondCore second_core;
+  second_core.worth_sharing = {8'192, 2'048};
   BatchMatcher alone, shared;
   alone.set_world(world), shared.set_world(world);
   shared.share_with(&second_core);
@@ -63,6 +64,7 @@ TEST(ThreadedMatching, ChangesAreTheSameWithASecondCoreWhateverPartMoves) {
   for (const std::size_t subscriber_count : {1'000u, 12'000u}) {
     const Shape shape = subscriber_count == 1'000u ? Shape::disc : Shape::rectangle;
     rti::SecondCore second_core;
+    second_core.worth_sharing = {8'192, 2'048};
     OverlapFilter alone(world, Instructions::best, shape), shared(world, Instructions::best, shape);
     shared.share_with(&second_core);
     std::mt19937_64 random(5);
