@@ -148,6 +148,7 @@ TEST_F(Viewing, RefusesWhatCannotBe) {
   EXPECT_THAT(complaint({"--scheme", "regoin"}), HasSubstr("regoin"));
   EXPECT_THAT(complaint({"--scheme", "region", "--policy", "snapshot"}), HasSubstr("snapshot"));
   EXPECT_THAT(complaint({"--scheme", "region", "--always", "puck"}), HasSubstr("does not name always"));
+  EXPECT_THAT(complaint({"--always", "puck"}), HasSubstr("--always: there is no scheme that could ask: expected one that does"));
   EXPECT_THAT(complaint({"--seated", "--bots", "1"}), HasSubstr("expected no --bots"));
   EXPECT_THAT(complaint({"--evidence", (folder_ / "e.jsonl").string()}), HasSubstr("expected --pace realtime"));
   EXPECT_THAT(complaint({"--seated", "--bat-count", "1"}), HasSubstr("2 peers, but the scene has 1 bats"));

@@ -46,7 +46,7 @@ void add_viewing_options(CLI::App& app, ViewingOptions& options, Terms& terms, C
 
 void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game, std::uint32_t bots) {
   if (!options.always.empty() && !im::names_scheme(terms.interest.scheme, "always"))
-    throw std::invalid_argument("--always: the scheme '" + terms.interest.scheme + "' does not name always: expected one that does, such as --scheme \"region or always\"");
+    throw std::invalid_argument("--always: " + (terms.interest.scheme.empty() ? "there is no scheme that could ask" : "the scheme '" + terms.interest.scheme + "' does not name always") + ": expected one that does, such as --scheme \"region or always\"");
   if (!terms.is_seated) return;
   if (bots > 0) throw std::invalid_argument("--bots: with --seated each peer's player is the bat in its zone, whose keys all know (--keys): expected no --bots");
   if (terms.peer_count > game.bat_count())
