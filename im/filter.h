@@ -157,6 +157,9 @@ std::unique_ptr<Filter> make_filter(const std::string& expression, const FilterS
 /// What is wrong with `expression` or `settings`, naming the offender; nothing if `make_filter` takes them.
 std::optional<std::string> complaint_about(const std::string& expression, const FilterSettings& settings);
 
+/// True if both are expressions and differ in nothing but how they are written: spaces, parentheses, digits.
+bool say_the_same(const std::string& expression, const std::string& other);
+
 /// True if `expression` has a scheme with cells whose size it does not give, so that they have the settings': what else they are told changes nothing.
 bool takes_cell_size(const std::string& expression);
 

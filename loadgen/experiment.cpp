@@ -32,7 +32,7 @@ std::string scene_beside(const std::string& scene, const std::filesystem::path& 
 
 void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary& vocabulary) {
   reader.choose("modes", result.modes, vocabulary.modes);
-  reader.judged("schemes", result.schemes, [](const std::string& text) { return im::complaint_about(text, {}); });
+  reader.judged("schemes", result.schemes, [](const std::string& text) { return im::complaint_about(text, {}); }, im::say_the_same);
   reader.choose("policies", result.policies, vocabulary.policies);
   reader.whole_numbers("clients", result.clients, 1, 100'000);
   reader.whole_numbers("pucks", result.pucks, 0, 1'000'000);

@@ -53,8 +53,9 @@ class ExperimentReader {
     });
   }
 
-  /// Texts that `complaint` says nothing against; what it says stands in place of what is allowed.
-  void judged(const char* key, std::vector<std::string>& into, const std::function<std::optional<std::string>(const std::string&)>& complaint) {
+  /// Texts that `complaint` says nothing against; what it says stands in place of what is allowed. No two of them `are_alike`.
+  void judged(const char* key, std::vector<std::string>& into, const std::function<std::optional<std::string>(const std::string&)>& complaint,
+              const std::function<bool(const std::string&, const std::string&)>& are_alike) {
     std::string allowed = "the name of a scheme, or an expression of several (docs/im.md)";
     read_list(key, into, allowed, [&](const toml::node& node) -> std::optional<std::string> {
       auto text = node.value_exact<std::string>();
@@ -62,6 +63,9 @@ class ExperimentReader {
       if (wrong) allowed = "a scheme: " + *wrong, text.reset();
       return text;
     });
+    for (auto one = into.begin(); one != into.end(); ++one)
+      for (auto other = into.begin(); other != one; ++other)
+        if (are_alike(*one, *other)) throw ExperimentError(file_ + ": " + prefix_ + key + ": '" + *other + "' and '" + *one + "' say the same: expected each once");
   }
 
   template <class Whole>

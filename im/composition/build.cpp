@@ -47,8 +47,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Six decimals at most, where these say it.
 std::string shown(double number) {
   std::string text = std::to_string(number);
+  if (std::stod(text) != number) {
+    char all[32];
+    std::snprintf(all, sizeof all, "%.9g", number);
+    return all;
+  }
   text.erase(text.find_last_not_of('0') + 1);
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
@@ -221,6 +227,11 @@ std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSetting
   Expression expression;
   read_expression(text, expression);
   return build_filter(expression, settings);
+}
+
+bool say_the_same(const std::string& text, const std::string& other) {
+  Expression one, another;
+  return read_expression(text, one).empty() && read_expression(other, another).empty() && one == another;
 }
 
 bool takes_cell_size(const std::string& text) {

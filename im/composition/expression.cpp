@@ -106,7 +106,7 @@ class Reader {
 
   std::string_view rest_, token_;
   bool is_number_ = false;
-  int depth_ = 0, stages_ = 0;
+  int depth_ = -1, stages_ = 0;  // the whole is no level
   std::string complaint_;
 };
 

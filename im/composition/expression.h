@@ -20,11 +20,14 @@ struct Expression {
   struct Parameter {
     std::string key;
     double value;
+    friend bool operator==(const Parameter&, const Parameter&) = default;
   };
   Kind kind = Kind::scheme;
   std::string name;                   ///< of a scheme or stage
   std::vector<Parameter> parameters;  ///< of it, as written
   std::vector<Expression> operands;   ///< one of a stage and of `not`; two of `and` and `or`
+
+  friend bool operator==(const Expression&, const Expression&) = default;
 
   /// That of `key`, or `otherwise`.
   double parameter(std::string_view key, double otherwise) const;

@@ -8,9 +8,12 @@ namespace {
 
 constexpr double cell_max = 1 << 28;
 
+/// Cells are numbered in single precision, which counts no further.
+constexpr double cells_across_max = 0x1p24;
+
 /// Finite also for a world that is tiny.
 CellAxis axis(double cells, double length) {
-  const double bounded = std::min(std::max(1.0, std::floor(cells)), 1e9);
+  const double bounded = std::min(std::max(1.0, std::floor(cells)), cells_across_max);
   return {static_cast<float>(std::min(bounded / length, static_cast<double>(float_max))), static_cast<std::int32_t>(bounded) - 1, 0.0f};
 }
 

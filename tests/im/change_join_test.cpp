@@ -207,7 +207,7 @@ TEST(ChangeJoin, SeesAPointOnACircleAsOneAtEveryScale) {
       }
 }
 
-/// What moves is known where it was binned until it is a quarter of a column away.
+/// What moves is known where it was binned until it is two thirds of a column away.
 TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
   Random random(7);
   RegionHistory regions;

@@ -151,6 +151,9 @@ TEST(Expression, IsRefusedByNameWhereItIsWrong) {
   EXPECT_THAT(complaint("aura with tiers(at=0.5) with dwell(matches=2)"), HasSubstr("after tiers nothing may follow but priority"));
   EXPECT_EQ(complaint("aura with tiers(at=0.5) with priority"), "");
   EXPECT_THAT(complaint(std::string(3000, '(')), HasSubstr("more than 32 levels"));
+  EXPECT_EQ(complaint(std::string(32, '(') + "aura" + std::string(32, ')')), "");
+  EXPECT_THAT(complaint(std::string(33, '(') + "aura" + std::string(33, ')')), HasSubstr("more than 32 levels"));
+  EXPECT_THAT(complaint("grid(cell_size=1e-7)"), HasSubstr("cell_size = 1e-07 is not"));
   std::string chain = "aura", stages = "aura";
   for (int i = 0; i < 20'000; ++i) chain += " or aura";
   for (int i = 0; i < 24; ++i) stages += " with hysteresis(margin=0.1)";

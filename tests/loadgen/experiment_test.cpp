@@ -58,6 +58,7 @@ TEST(ExperimentFile, TakesExpressionsForSchemesAndSaysWhatIsWrongWithOne) {
 TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "schemes = ['none', 'gird']"),
               AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("gird"), HasSubstr("none"), HasSubstr("grid"), HasSubstr("region")));
+  EXPECT_THAT(complaint_about(minimal + "schemes = ['aura', 'grid', ' (aura)']"), HasSubstr("schemes: 'aura' and ' (aura)' say the same"));
   EXPECT_THAT(complaint_about(minimal + "clients = [10,\n0]"), AllOf(StartsWith("dir/x.toml:4: clients = 0"), HasSubstr("from 1 to 100000")));
   EXPECT_THAT(complaint_about(minimal + "clients = []"), StartsWith("dir/x.toml:3: clients"));
   EXPECT_THAT(complaint_about(minimal + "clients = [5, 5]"), AllOf(StartsWith("dir/x.toml:3: clients = 5"), HasSubstr("once")));

@@ -92,6 +92,17 @@ TEST_F(PeerLoss, IsNotWhenOneIsInterruptedForItHandsOverWhatItOwns) {
   }
 }
 
+TEST_F(PeerLoss, IsNotWhenOneOfTwoIsInterruptedForTheOtherGoesOn) {
+  Process& first = found(2, "10000");
+  Process& second = join(first);
+  ASSERT_TRUE(are_playing({&first, &second}));
+  second.stop(2000ms);
+  ASSERT_TRUE(second.ending());
+  EXPECT_EQ(second.ending()->exit_status, 130);
+  EXPECT_THAT(second.last_words(), HasSubstr("all that this peer had is with others"));
+  EXPECT_FALSE(first.ending());
+}
+
 TEST_F(PeerLoss, IsNotWhenOneIsInterruptedInWindowsOfMoreThanASecond) {
   Process& first = found(3, "9", {"--pace", "realtime", "--window", "1.5"});
   Process& second = join(first);

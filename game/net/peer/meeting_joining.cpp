@@ -90,7 +90,9 @@ void Meeting::answer(rti::ConnectionId connection, const Hello& hello) {
   }
   Guest guest = hello.guest;
   if (!is_reachable(guest.place)) return refuse(connection, RefusalKind::other, "it does not say where others reach it");
-  if (guest_count_ == terms_.peer_count) return refuse(connection, RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers are there already");
+  // A newcomer, who was not waited for, can be let in once they play.
+  if (guest_count_ == terms_.peer_count)
+    return refuse(connection, terms_.is_mirrored ? RefusalKind::again : RefusalKind::other, "all " + std::to_string(terms_.peer_count) + " peers that were waited for are there, and do not play yet");
   if (const std::uint32_t free = settings_.bats - bats_taken_; guest.bat_count > free)
     return refuse(connection, RefusalKind::other, "it wants to play " + std::to_string(guest.bat_count) + " bats, of " + std::to_string(settings_.bats) + " here " + std::to_string(free) + " are free");
   guest.first_bat = bats_taken_;

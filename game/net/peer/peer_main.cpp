@@ -197,7 +197,7 @@ game::ExitStatus share(const Options& options, const game::Terms& terms, game::S
     const double playing_s = now_s() - start_s;
     if (viewing.witness) game::write_evidence(options.viewing.evidence, viewing.witness->evidence());
     meeting.leave({});
-    if (part.has_left) spdlog::warn("interrupted at {} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
+    if (part.has_left) spdlog::warn("interrupted at {:.9g} s: {}", part.time, part.was_last ? "nobody was left to go on" : "all that this peer had is with others");
     return report(options, shared, meeting, viewing, part, playing_s);
   } catch (const game::Parting& parting) {
     spdlog::error("{}", parting.what());

@@ -222,7 +222,8 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   if (manner.listener != nullptr) manner.listener->end();
   PlayedPart part;
   part.has_left = session.has_left();
-  part.was_last = part.has_left && session.members().size() == 1;
+  // The members of the last window are without one who left in good order.
+  part.was_last = part.has_left && session.members().size() == 1 && session.members().front() == number;
   if (!session.has_left()) end(session, part);
   part.has_left = session.has_left();
   membership.tell();
