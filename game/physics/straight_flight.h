@@ -234,7 +234,7 @@ bool counts_touching() {
 #endif
 }
 
-/// As first_meeting(), and who touches is counted as well: asked in the same breath, that costs a tenth of what it does alone.
+/// As first_meeting(), and who touches is counted as well: asked in the same breath, that takes four instructions more per four discs.
 template <class Real, class Disc>
 Meeting<Real> first_meeting_counting(const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count, Real latest) {
   assert(counts_touching<Real>());
