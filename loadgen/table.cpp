@@ -67,7 +67,7 @@ std::string heading(const Columns& columns) {
 /// The row's values; `-` where its scheme lacks the parameter.
 std::string values_of(const SummaryRow& row, const Columns& columns) {
   std::string text;
-  for (const ParameterKind* kind : columns) text += formatted(" %9s", kind->has(row.scheme) ? shortest(kind->scale * kind->of(row.parameters)).c_str() : "-");
+  for (const ParameterKind* kind : columns) text += formatted(" %9s", kind->has(row.scheme) ? formatted("%.6g", kind->scale * kind->of(row.parameters)).c_str() : "-");
   return text;
 }
 
