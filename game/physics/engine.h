@@ -201,6 +201,7 @@ class BasicEngine {
 
   // engine_prediction.cpp
   void predict(std::uint32_t body);
+  std::uint32_t begin_prediction(std::uint32_t body);
   std::uint32_t predict_counting(std::uint32_t body);
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);

@@ -60,14 +60,14 @@ bool BasicEngine<Real>::collide_freely(std::uint32_t body, Partner p, Real time)
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
   if (!(approach >= 1.01 * std::max<Real>(rest_speed_, separation_min<Real> * speed_max) * length_max)) return false;
   const Flight<Real> before_a = a, before_b = b;
-  const Slot slot_a = slots_[low], slot_b = slots_[high];
-  const std::uint64_t predictions = counters_.predictions;
   const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   a.restart(ax, ay, a.vx + kick_a * x, a.vy + kick_a * y, std::max(a.time, time));
   b.restart(bx, by, b.vx - kick_b * x, b.vy - kick_b * y, std::max(b.time, time));
   ++a.version, ++b.version;
   if (is_counting) {
+    const Slot slot_a = slots_[low], slot_b = slots_[high];
+    const std::uint64_t predictions = counters_.predictions;
     const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
     const bool is_alone = square <= touching * touching && predict_counting(low) == 2 && predict_counting(high) == 2;  // each itself and the other
     if (!is_alone) {

@@ -29,28 +29,28 @@ void BasicEngine<Real>::enqueue(std::uint32_t body) {
 template <class Real>
 void BasicEngine<Real>::predict(std::uint32_t body) {
   if (bodies_[body].kind == BodyKind::post) return;
+  predict_pairs(body, begin_prediction(body));
+  enqueue(body);
+}
+
+/// Forgets what was known, asks the field, and makes all who are near candidates; returns how many, the body itself among them.
+template <class Real>
+std::uint32_t BasicEngine<Real>::begin_prediction(std::uint32_t body) {
   slots_[body].impact_time = infinity;
   slots_[body].partner = partner::none;
   slots_[body].is_tied = false;
   predict_field(body);
   if ((bodies_[body].flags & curved) != 0) predict_curved_crossing(body);
   candidates_.resize(grid_.collected_max());
-  const std::uint32_t count = grid_.collect(body, candidates_.data());
   --counters_.predictions;  // of the body with itself
-  predict_pairs(body, count);
-  enqueue(body);
+  return grid_.collect(body, candidates_.data());
 }
 
 /// Likewise of a puck in straight flight where all are, but for telling the queue. Returns how many touch it now, itself included: never too few, hardly ever too many.
 template <class Real>
 std::uint32_t BasicEngine<Real>::predict_counting(std::uint32_t body) {
-  slots_[body].impact_time = infinity;
-  slots_[body].partner = partner::none;
-  slots_[body].is_tied = false;
-  predict_field(body);
-  candidates_.resize(grid_.collected_max());
-  const std::uint32_t count = grid_.collect(body, candidates_.data());
-  counters_.predictions += count - 1;  // of the body with itself
+  const std::uint32_t count = begin_prediction(body);
+  counters_.predictions += count;
   return predict_straight_pairs<true>(body, candidates_.data(), count);
 }
 

@@ -215,6 +215,12 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
   }
 }
 
+/// Writes what a comparison said; returns the next place if it said anything.
+inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t asker, const LineOutcome& outcome) {
+  *hit = {&line, asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
+  return hit + ((outcome.changed | outcome.tied) != 0 ? 1 : 0);
+}
+
 /// Compares the first lines, which were asked for, and lists what they say. Whether a line says anything is anybody's guess, so nothing branches on it.
 template <class Compare>
 void LineIndex::read_lines(Answers& answers) const {
@@ -224,9 +230,7 @@ void LineIndex::read_lines(Answers& answers) const {
   Visit* crowded = answers.crowded.data();
   for (const Visit& visit : visits) {
     const Line& line = lines_[visit.line];
-    const LineOutcome outcome = Compare(visit.asking)(line);
-    *hit = {&line, visit.asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
-    hit += (outcome.changed | outcome.tied) != 0 ? 1 : 0;
+    hit = list(hit, line, visit.asker, Compare(visit.asking)(line));
     *crowded = visit;
     crowded += line.has_more() ? 1 : 0;
     answers.candidate_count += line.count();
@@ -251,11 +255,7 @@ void LineIndex::read_further(Answers& answers) const {
     const std::size_t known = answers.hits.size();
     answers.hits.resize(known + run.size);
     Hit* hit = answers.hits.data() + known;
-    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) {
-      const LineOutcome outcome = compare(*further);
-      *hit = {further, visits[i].asker, static_cast<std::uint8_t>(outcome.changed), static_cast<std::uint8_t>(outcome.entered), static_cast<std::uint8_t>(outcome.tied)};
-      hit += (outcome.changed | outcome.tied) != 0 ? 1 : 0;
-    }
+    for (const Line *further = &lines_[run.first], *end = further + run.size; further != end; ++further) hit = list(hit, *further, visits[i].asker, compare(*further));
     answers.hits.resize(static_cast<std::size_t>(hit - answers.hits.data()));
     answers.candidate_count += std::uint64_t{run.size} * lanes;
   }

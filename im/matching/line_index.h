@@ -15,6 +15,8 @@
 
 namespace rink::im {
 
+struct LineOutcome;
+
 /// What a load beyond the caches costs, 100 ns and more, is what a mover costs; so who asks reads one line for each cell, and who moves finds his own without being told where it is:
 /// his cell follows from where he was. What does not fit into a cell's line is in a run of further lines elsewhere, all full. About 26 bytes per box where boxes are spread evenly.
 class LineIndex {
@@ -85,6 +87,7 @@ class LineIndex {
   template <class Compare>
   void find_changes(const ProbeList& askers, std::size_t begin, std::size_t end, const TieJudge& judge, const RegionHistory& regions, Answers& answers) const;
   void visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& visits) const;
+  static Hit* list(Hit* hit, const Line& line, std::uint32_t asker, const LineOutcome& outcome);
   template <class Compare>
   void read_lines(Answers& answers) const;
   template <class Compare>
