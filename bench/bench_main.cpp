@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "game/version/version.h"
+
 namespace {
 
 constexpr const char* usage = R"(Run the benchmarks; each reports time and error, in real time.
@@ -37,7 +39,11 @@ bool translate(const std::vector<std::string>& arguments, std::vector<std::strin
 int main(int count, char** values) {
   const std::vector<std::string> arguments(values, values + count);
   for (const std::string& argument : arguments)
-    if (argument == "--help" || argument == "-h") return std::fputs(usage, stdout) < 0;
+    if (argument == "--help" || argument == "-h") {
+      return std::fputs(usage, stdout) < 0;
+    } else if (argument == "--version") {
+      return std::puts(rink::game::version_line("rink-bench").c_str()) < 0;
+    }
   std::vector<std::string> translated;
   if (!translate(arguments, translated)) return std::fputs("rink bench: --filter and --json need a value\n", stderr), 2;
   std::vector<char*> pointers;

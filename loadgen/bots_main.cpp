@@ -18,6 +18,7 @@
 #include "game/net/speak_as.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
+#include "game/version/version.h"
 #include "loadgen/bot_crowd.h"
 #include "loadgen/bots_report.h"
 #include "loadgen/process.h"
@@ -207,6 +208,7 @@ game::ExitStatus play(const Options& options) {
 int main(int count, char** values) {
   game::speak_as("rink-bots");
   CLI::App app;
+  app.set_version_flag("--version", game::version_line("rink-bots"));
   Options options;
   add_options(app, options);
   try {

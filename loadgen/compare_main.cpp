@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "game/net/flags.h"
+#include "game/version/version.h"
 #include "loadgen/assertion.h"
-#include "loadgen/build_facts.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/growth.h"
@@ -191,7 +191,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   const bool is_virtual = experiment.transport == TransportKind::virtual_time;
   const bool has_peers = std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end();
   RunnerSettings settings = runner_settings(options, has_peers && !is_virtual);
-  const JournalHead identity{identity_of(experiment), built_commit(), {}};
+  const JournalHead identity{identity_of(experiment), rink::game::built_commit(), {}};
   Continuation continuation = opened_results(options, experiment, identity);
   std::cerr << continuation.said;
   ResultsDirectory& results = continuation.results;
@@ -237,6 +237,7 @@ void add_saturate_options(CLI::App& app, SaturateOptions& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Runs every mode x scheme x policy x client count x seed of an experiment as a server and its bots over loopback, and compares them."};
+  app.set_version_flag("--version", rink::game::version_line("rink-compare"));
   app.add_option("EXPERIMENT", options.experiment, "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, full, virtual, modes (with and without a server, in virtual time; over sockets: "
                                                          "modes_sockets) and others listed there");
   app.add_option("--out", options.out, "folder for the results (default: report, or report-2, ... if taken)");

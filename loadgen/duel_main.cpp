@@ -20,6 +20,7 @@
 #include "game/net/speak_as.h"
 #include "game/players/player.h"
 #include "game/replication/trajectory_codec.h"
+#include "game/version/version.h"
 #include "loadgen/duel/match_bot.h"
 #include "rti/transport/tcp.h"
 
@@ -104,6 +105,7 @@ game::ExitStatus play(const Options& options) {
 int main(int count, char** values) {
   game::speak_as("rink-duel");
   CLI::App app("Two bots who play hosted matches over TCP as people would: on what their own clients show.");
+  app.set_version_flag("--version", game::version_line("rink-duel"));
   Options options;
   app.add_option("--connect", options.connect, "host, as ADDRESS:PORT")->capture_default_str();
   app.add_option("--players", options.players, "who they are")->check(CLI::IsMember(game::player_kinds()))->capture_default_str();

@@ -15,7 +15,7 @@
 #include <sstream>
 #include <thread>
 
-#include "loadgen/build_facts.h"
+#include "game/version/version.h"
 #include "loadgen/process.h"
 
 namespace rink::loadgen {
@@ -86,10 +86,10 @@ std::string calibration_text(const Histogram& wake_ups) {
 
 void add_program_and_machine(Provenance& provenance) {
   const std::vector<std::pair<std::string, std::string>> facts{
-      {"commit", built_commit()},
-      {"version", built_version()},
+      {"commit", game::built_commit()},
+      {"version", game::built_version()},
       {"compiler", compiler()},
-      {"flags", built_flags()},
+      {"flags", game::built_flags()},
       {"libraries", libraries()},
       {"processor", value_in("/proc/cpuinfo", "model name")},
       {"cores", std::to_string(allowed_processors().size()) + " allowed of " + std::to_string(std::thread::hardware_concurrency())},

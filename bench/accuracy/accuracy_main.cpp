@@ -15,6 +15,7 @@
 #include "bench/trials/stability_trials.h"
 #include "bench/accuracy/tables.h"
 #include "bench/peers/peers.h"
+#include "game/version/version.h"
 #include "loadgen/provenance.h"
 
 namespace {
@@ -168,6 +169,7 @@ int run(const Options& options, const std::vector<std::string>& command_line) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Measures run time against error for every engine, integrator and step, with Chipmunk and Box2D beside them, or who survives what is hard.", "rink accuracy");
+  app.set_version_flag("--version", rink::game::version_line("rink-accuracy"));
   const auto diagram_names = names_of(diagram_trials(), [](const DiagramTrial& trial) { return trial.trial.name; });
   const auto stability_names = names_of(stability_trials(), [](const Trial& trial) { return trial.name; });
   app.add_flag("--stability", options.is_stability, "the stability table instead: overlap, escapes, energy error, events, survived or not");

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "game/control/replay.h"
+#include "game/version/version.h"
 
 namespace {
 
@@ -41,6 +42,7 @@ int replay(const std::string& file) {
 int main(int argc, char** argv) {
   std::string file;
   CLI::App app("Plays a recorded game again, without a network, and compares the hash in which it ends.", "rink replay");
+  app.set_version_flag("--version", game::version_line("rink-replay"));
   app.add_option("file", file, "a key log with scene, keys, end and hash, as rink simulate --record and rink serve --record write it")->required();
   app.footer("Example: rink simulate match --players chaser,random --until 120 --record match.keys && rink replay match.keys\n"
              "Exit status: 0 the same hash, 1 another hash, 2 a log that is wrong, altered or incomplete, or a bad flag.");

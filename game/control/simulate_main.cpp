@@ -15,6 +15,7 @@
 #include "game/control/simulate_progress.h"
 #include "game/control/simulate_report.h"
 #include "game/model/scene_file.h"
+#include "game/version/version.h"
 
 namespace {
 
@@ -155,6 +156,7 @@ std::string allowed_players() {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Advances a scene without a network, exactly or in frames, and writes what became of it.", "rink simulate");
+  app.set_version_flag("--version", game::version_line("rink-simulate"));
   app.add_option("scene", options.scene, "a scene file (docs/scenes.md) or the name of a preset, such as match or crowd")->required();
   app.add_option("--until", options.until, "simulated time at which to stop [s]")->required()->check([](const std::string& text) -> std::string {
     double until = 0.0;

@@ -22,6 +22,7 @@
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
 #include "game/net/scene_choice.h"
+#include "game/version/version.h"
 #include "rti/second_core.h"
 #include "game/net/serve_options.h"
 #include "game/net/serve_report.h"
@@ -368,6 +369,7 @@ game::ExitStatus serve_or_explain(game::ServeOptions& options) {
 int main(int count, char** values) {
   game::speak_as("rink-serve");
   CLI::App app;
+  app.set_version_flag("--version", game::version_line("rink-serve"));
   game::ServeOptions options;
   game::add_options(app, options);
   try {

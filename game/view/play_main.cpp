@@ -19,6 +19,7 @@
 #include "game/net/interrupt.h"
 #include "game/net/joined_match.h"
 #include "game/net/peer/playing_peer.h"
+#include "game/version/version.h"
 #include "game/view/application.h"
 #include "game/view/host_process.h"
 #include "game/view/play_options.h"
@@ -312,6 +313,7 @@ game::ExitStatus play(const view::PlayOptions& options) {
 int main(int count, char** values) {
   game::hear_interrupts();
   CLI::App app("Play air hockey in a window. Without arguments it opens a menu.", "rink play");
+  app.set_version_flag("--version", game::version_line("rink-play"));
   view::PlayOptions options;
   view::add_options(app, options);
   app.footer(std::string("Example: rink play --bot club\n"

@@ -28,6 +28,7 @@ const std::vector<Layer> layers{
     {"game/physics/collision", {"game/physics/collision", "game/physics"}},
     {"game/physics/paper", {"game/physics/paper", "game/physics/collision", "game/physics"}},
     {"game/physics", {"game/physics", "game/physics/paper"}},
+    {"game/version", {"game/version"}},
     {"game/model", {"game/model", "game/physics"}},
     {"game/peer", {"game/peer", "game/physics"}},
     {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},
@@ -41,7 +42,7 @@ const std::vector<Layer> layers{
     {"loadgen/duel", {"loadgen/duel", "loadgen", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"loadgen/truth", {"loadgen/truth", "loadgen", "game/net", "game/control", "game/model", "game/physics"}},
     {"loadgen/report", {"loadgen/report", "loadgen"}},
-    {"loadgen", {"loadgen", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"loadgen", {"loadgen", "game/version", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};
@@ -93,9 +94,10 @@ bool starts_with_any(const std::string& path, const Names& prefixes) {
   });
 }
 
-/// What `layer` may include from `source`; commands of the game and the load generator choose a transport.
+/// What `layer` may include from `source`: commands say which version they are, those of the game choose a transport.
 Names allowed(const Layer& layer, const SourceFile& source) {
   Names names = layer.may_know;
+  if (source.is_command()) names.push_back("game/version");
   if (source.is_command() && source.is_in("game")) names.push_back("rti/transport");
   return names;
 }

@@ -30,6 +30,7 @@
 #include "game/net/record_file.h"
 #include "game/net/scene_choice.h"
 #include "game/net/speak_as.h"
+#include "game/version/version.h"
 
 namespace {
 
@@ -368,6 +369,7 @@ void add_options(CLI::App& app, Options& options) {
 int main(int count, char** values) {
   game::speak_as("rink-peer");
   CLI::App app;
+  app.set_version_flag("--version", game::version_line("rink-peer"));
   Options options;
   add_options(app, options);
   try {
