@@ -1,9 +1,12 @@
-# `cmake --install build` gives another project `find_package(rink)` with the targets rink::im and rink::rti.
+# `cmake --install build --component library` gives another project `find_package(rink COMPONENTS im rti transport)` with the targets rink::im, rink::rti and
+# rink::transport. Each has its own file of targets, so that whoever asks for the filters alone needs nothing but the standard library.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rink)
 
-install(TARGETS rink_im rink_rti rink_transport EXPORT rink_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
-install(EXPORT rink_targets FILE rink-targets.cmake NAMESPACE rink:: DESTINATION ${package_dir} COMPONENT library)
+foreach(part im rti transport)
+  install(TARGETS rink_${part} EXPORT rink_${part}_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
+  install(EXPORT rink_${part}_targets FILE rink-${part}-targets.cmake NAMESPACE rink:: DESTINATION ${package_dir} COMPONENT library)
+endforeach()
 foreach(folder im rti)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rink/${folder} COMPONENT library FILES_MATCHING PATTERN "*.h")
 endforeach()
