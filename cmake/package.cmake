@@ -1,0 +1,52 @@
+# `cpack -G DEB`: one Debian package of the commands, the library with its headers, the man pages and the shell completion. The man pages are made from each command's
+# --help by the target man-pages, which `rink package` builds first.
+find_program(RINK_HELP2MAN help2man)
+get_property(commands GLOBAL PROPERTY RINK_COMMANDS)
+set(programs)
+foreach(name IN LISTS commands)
+  list(APPEND programs rink-${name})
+endforeach()
+
+set(manuals ${CMAKE_BINARY_DIR}/man)
+if(RINK_HELP2MAN)
+  add_custom_target(man-pages VERBATIM
+                    COMMAND sh ${PROJECT_SOURCE_DIR}/cmake/man_pages.sh ${PROJECT_SOURCE_DIR}/rink ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${manuals} ${commands})
+  add_dependencies(man-pages ${programs})
+else()
+  add_custom_target(man-pages COMMAND ${CMAKE_COMMAND} -E echo "man pages need help2man: install it and configure again" COMMAND false)
+endif()
+file(MAKE_DIRECTORY ${manuals})
+install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT commands FILES_MATCHING PATTERN "*.1.gz")
+
+install(PROGRAMS rink DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT commands)
+set(completions ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES cmake/completion.bash DESTINATION ${completions} RENAME rink COMPONENT commands)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/completions)
+foreach(program IN LISTS programs)
+  file(CREATE_LINK rink ${CMAKE_BINARY_DIR}/completions/${program} SYMBOLIC)
+  install(FILES ${CMAKE_BINARY_DIR}/completions/${program} DESTINATION ${completions} COMPONENT commands)
+endforeach()
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/rink RENAME copyright COMPONENT commands)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/rink COMPONENT commands)
+
+set(CPACK_PACKAGE_NAME rink)
+set(CPACK_PACKAGE_VENDOR "The Rink authors")
+set(CPACK_PACKAGE_CONTACT "The Rink authors <rink@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Scalability testbed for interest management")
+set(CPACK_PACKAGE_DESCRIPTION "A server simulates an air-hockey rink of any number of bats and pucks exactly, an HLA-style run-time
+infrastructure distributes it under interchangeable filters and update policies, and headless bots play while bandwidth, latency,
+filter cost and consistency are measured.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_COMPONENTS_ALL commands library)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, openmpi-bin")
+# What a project that links the RTI needs; one that links the filters alone needs none of it.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libpugixml-dev, libtomlplusplus-dev, libsodium-dev, pkg-config, cmake")
+include(CPack)
