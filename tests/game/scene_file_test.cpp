@@ -7,6 +7,7 @@
 
 #include "game/control/game.h"
 #include "rink_scenes.h"
+#include "tests/words.h"
 
 namespace rink::game {
 namespace {
@@ -242,7 +243,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"[materials]\nfriction = 1.0\n[[puck]]\nposition = [1.0, 1.0]\nspin = 1e300\n", "bad.toml:8", "puck.spin is 1e+300", "from -1e+09 to 1e+09"},
         BadValue{"[drag]\npucks = 1e300\n", "bad.toml:5", "drag.pucks is 1e+300", "from 0 to 10000"},
         BadValue{"[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.1, 0.1]\nthrust = 1e300\n", "bad.toml:7", "bat.thrust is 1e+300", "from 0 to 10000"},
-        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmean_speed = 1e300\n", "bad.toml:7", "population.mean_speed is 1e+300", "from 0 to 1e+06"}));
+        BadValue{"[[population]]\nkind = \"puck\"\ncount = 3\nmean_speed = 1e300\n", "bad.toml:7", "population.mean_speed is 1e+300", "from 0 to 1e+06"}),
+    [](const auto& value) { return test::words(value.param.key) + "_" + std::to_string(value.index); });
 
 TEST(SceneFile, MayAllowOverlapAtTheStartButNotBodiesOutsideTheField) {
   const std::string field = "allow_overlap = true\n[field]\nlength = 4.0\nwidth = 2.0\n[[puck]]\nposition = [1.0, 1.0]\nvelocity = [1.0, 0.0]\n[[puck]]\n";

@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "tests/words.h"
+
 namespace rink::im {
 namespace {
 
@@ -86,7 +88,7 @@ std::vector<std::string> all_kinds() {
   return kinds;
 }
 
-INSTANTIATE_TEST_SUITE_P(Filter, Strangers, testing::ValuesIn(all_kinds()), [](const auto& info) { return std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(Filter, Strangers, testing::ValuesIn(all_kinds()), [](const auto& info) { return test::words(info.param); });
 
 TEST(FilterSettings, NeedAWorldWithAnAreaAndCellsWithASize) {
   const Region world{0.0, 0.0, 10.0, 10.0};

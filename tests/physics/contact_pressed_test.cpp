@@ -6,6 +6,7 @@
 #include "tests/physics/contact_bounds.h"
 #include "tests/physics/pressed_bodies.h"
 #include "tests/physics/scenes.h"
+#include "tests/words.h"
 
 namespace rink::physics::test {
 namespace {
@@ -180,7 +181,8 @@ TEST_P(Pressed, WholeRackIntoACorner) {
   watch.run(10.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Restitution, Pressed, testing::Values(0.0, 0.1, 0.5, 0.9, 1.0));
+INSTANTIATE_TEST_SUITE_P(Restitution, Pressed, testing::Values(0.0, 0.1, 0.5, 0.9, 1.0),
+                         [](const auto& restitution) { return "of_" + rink::test::words(restitution.param); });
 
 }  // namespace
 }  // namespace rink::physics::test
