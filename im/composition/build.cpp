@@ -1,8 +1,8 @@
 // Judges expressions and builds the filters that they say.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -51,9 +51,8 @@ std::string listed(const std::vector<std::string>& names) {
 std::string shown(double number) {
   std::string text = std::to_string(number);
   if (std::stod(text) != number) {
-    char all[32];
-    std::snprintf(all, sizeof all, "%.9g", number);
-    return all;
+    std::array<char, 32> all;
+    return {all.data(), std::to_chars(all.data(), all.data() + all.size(), number, std::chars_format::general, 9).ptr};
   }
   text.erase(text.find_last_not_of('0') + 1);
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
@@ -252,9 +251,9 @@ std::string file_name_of(const std::string& expression) {
   if (name.size() <= size_max) return name;
   std::uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a (Fowler, Noll, Vo 1991)
   for (const char c : name) digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  char tail[20];
-  std::snprintf(tail, sizeof tail, "-%016llx", static_cast<unsigned long long>(digest));
-  return name.substr(0, size_max - 17) + tail;
+  std::array<char, 16> digits;
+  const std::string hexadecimal(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), digest, 16).ptr);
+  return name.substr(0, size_max - 17) + "-" + std::string(16 - hexadecimal.size(), '0') + hexadecimal;
 }
 
 }  // namespace rink::im

@@ -4,9 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "im/filter.h"
-
 namespace rink::im {
+
+class Filter;
+struct FilterSettings;
 
 /// The registered scheme called `name`, or nothing if there is none.
 std::unique_ptr<Filter> make_scheme(const std::string& name, const FilterSettings& settings);

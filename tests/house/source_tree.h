@@ -31,12 +31,16 @@ inline SourceFile read_source(const std::filesystem::path& root, const std::file
   return source;
 }
 
-/// All files below `folders` whose extension is one of `extensions`, in the order of their paths.
+/// All files below `folders` whose extension is one of `extensions`, in the order of their paths. A folder that is missing fails the test: who moves it moves its
+/// rules too.
 inline std::vector<SourceFile> read_sources(const std::vector<std::string>& folders, const std::vector<std::string>& extensions) {
   const std::filesystem::path root = test::source_folder();
   std::vector<SourceFile> sources;
   for (const std::string& folder : folders) {
-    if (!std::filesystem::exists(root / folder)) continue;
+    if (!std::filesystem::is_directory(root / folder)) {
+      ADD_FAILURE() << "there is no folder " << folder << " to judge";
+      continue;
+    }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
       if (entry.is_regular_file() && std::ranges::find(extensions, entry.path().extension().string()) != extensions.end())
         sources.push_back(read_source(root, entry.path()));
