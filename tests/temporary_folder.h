@@ -1,9 +1,11 @@
-// What tests of files and commands share: a folder that goes with them, and what a file holds.
+// What tests of files and commands share: a folder that goes with them, names that no process beside them has, and what a file holds.
 #pragma once
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -16,6 +18,12 @@ inline std::string text_of(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
+}
+
+/// A name that no other test, in this process or beside it, uses.
+inline std::string unique_name(const std::string& what) {
+  static std::atomic<int> count = 0;
+  return what + "-" + std::to_string(getpid()) + "-" + std::to_string(count++);
 }
 
 /// An empty folder that nobody else has, removed with all that is in it at the end.

@@ -3,20 +3,15 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "tests/accuracy/accuracy_scene.h"
 #include "tests/places.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::accuracy {
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 std::vector<std::filesystem::path> all_scenes() {
   std::vector<std::filesystem::path> scenes;
@@ -28,13 +23,11 @@ std::vector<std::filesystem::path> all_scenes() {
 
 /// What rink simulate writes about `scene` at `until`.
 std::string summary_of(const std::filesystem::path& scene, const std::string& until) {
-  const std::string summary = testing::TempDir() + "/rink-accuracy-" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
+  const test::TemporaryFolder folder("accuracy");
+  const std::string summary = (folder / "summary.json").string();
   const std::string command = test::binary_folder() + "/bin/rink-simulate " + scene.string() + " --until " + until + " --summary " + summary + " >" + summary + ".out 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command << ": " << text_of(summary + ".out");
-  const std::string text = text_of(summary);
-  std::filesystem::remove(summary);
-  std::filesystem::remove(summary + ".out");
-  return text;
+  return text_of(summary);
 }
 
 TEST(EveryAccuracyScene, RunsUnderRinkSimulate) {

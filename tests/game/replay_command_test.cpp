@@ -9,6 +9,7 @@
 
 #include "game/control/key_log.h"
 #include "tests/places.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
@@ -16,17 +17,10 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 class ReplayCommand : public ::testing::Test {
  protected:
-  ReplayCommand() : folder_(::testing::TempDir() + "/rink-replay-" + ::testing::UnitTest::GetInstance()->current_test_info()->name()) { std::filesystem::create_directories(folder_); }
-  ~ReplayCommand() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   /// The exit status of `rink COMMAND`; all that it says is in `said_`.
   int run(const std::string& command) {
@@ -37,7 +31,7 @@ class ReplayCommand : public ::testing::Test {
   void record() { ASSERT_EQ(run("simulate match --players chaser,random --seed 3 --until 20 --record " + file("keys") + " --summary " + file("summary")), 0) << said_; }
   int replay() { return run("replay " + file("keys")); }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"replay"};
   std::string said_;
 };
 

@@ -11,6 +11,7 @@
 #include "loadgen/report/gains.h"
 #include "loadgen/report/report.h"
 #include "loadgen/report/saturation_exhibit.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -139,14 +140,12 @@ TEST(Exhibits, LatencyCurvesEndWhereTheSampleDoes) {
 }
 
 TEST(Exhibits, HistogramsOfAllValidReplicationsAreTakenTogetherAndBadFilesPassedOver) {
-  const auto folder = std::filesystem::temp_directory_path() / "rink-latencies-test";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder("latencies");
   auto runs = two_by_two();
   for (const RunRecord& run : runs) std::ofstream(folder / (name_of(run.cell) + ".bots.json")) << canned_bots_report(run.cell);
   std::ofstream(folder / (name_of(runs[1].cell) + ".bots.json")) << "{\"update_age_ms\": 3";
   runs[0].valid = false;
   const auto latencies = latencies_in(folder, runs);
-  std::filesystem::remove_all(folder);
   ASSERT_EQ(latencies.size(), 4u);
   for (const CellLatencies& entry : latencies) {
     const bool lacks_one = entry.cell.policy == "periodic";

@@ -38,15 +38,17 @@ std::string text_of(const KeyLog& log) {
   return stream.str();
 }
 
-std::string file_of(const std::string& text) {
-  const std::string file = testing::TempDir() + "match.keys";
-  std::ofstream(file) << text;
-  return file;
-}
+/// A file match.keys that holds `text`.
+struct KeyFile {
+  explicit KeyFile(const std::string& text) { std::ofstream(path) << text; }
+  test::TemporaryFolder folder{"match"};
+  std::string path = (folder / "match.keys").string();
+};
 
 std::string complaint_about(const std::string& text) {
   try {
-    ReplayMatch replay(file_of(text));
+    const KeyFile file(text);
+    ReplayMatch replay(file.path);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -115,7 +117,8 @@ TEST(ARecordedMatch, IsTheSameHoweverOneGetsToAnInstant) {
 }
 
 TEST(ARecordedMatch, IsWatchedSlowlyStoppedAndSoughtIn) {
-  ReplayMatch match(file_of(text_of(played_match())));
+  const KeyFile file(text_of(played_match()));
+  ReplayMatch match(file.path);
   double now_s = 50.0;
   match.advance(now_s);
   play(match, now_s, 2.0);

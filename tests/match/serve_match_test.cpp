@@ -1,13 +1,13 @@
 // rink serve match, two bots over TCP, and the record of what they played, as commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 
 #include "loadgen/process.h"
 #include "tests/places.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
@@ -25,13 +25,12 @@ int status_of(Process& process, std::chrono::seconds patience) {
 }
 
 struct AHost : testing::Test {
-  AHost() : folder(std::filesystem::path(testing::TempDir()) / ("matches-" + std::to_string(getpid()))) {
-    host = std::make_unique<Process>(command("serve"), std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record", folder.string()}, std::vector<int>{});
+  AHost() {
+    host = std::make_unique<Process>(command("serve"), std::vector<std::string>{"match", "--port", "0", "--countdown", "0.2", "--record", folder.path().string()}, std::vector<int>{});
     for (int i = 0; i < 500 && !place; ++i) host->attend(10ms), place = host->line_after("listening on ");
   }
-  ~AHost() override { std::filesystem::remove_all(folder); }
 
-  std::filesystem::path folder;
+  test::TemporaryFolder folder{"matches"};
   std::unique_ptr<Process> host;
   std::optional<std::string> place;
 };

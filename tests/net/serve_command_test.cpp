@@ -1,7 +1,6 @@
 // The commands rink-serve and rink-bots from their arguments to their exit status and last words, as a careless user would start them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -18,6 +17,8 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp.h"
 #include "tests/places.h"
+#include "tests/reserved_port.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
@@ -87,7 +88,7 @@ TEST(ServeCommand, RefusesWhatIsAlwaysRelevantToASchemeThatDoesNotAsk) {
 }
 
 TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWhereTheyContradict) {
-  const std::filesystem::path folder = testing::TempDir();
+  const test::TemporaryFolder folder("modules");
   std::ofstream(folder / "own.fom.xml") << R"(<objectModel><objects><objectClass><name>HLAobjectRoot</name><objectClass><name>Entity</name>
 <attribute><name>shape</name><dataType>HLAoctet</dataType></attribute></objectClass></objectClass></objects></objectModel>)";
   std::ofstream(folder / "rink.toml") << "federation = \"rink\"\nfom = [\"" + test::source_folder() + "/game/net/rink.fom.xml\", \"own.fom.xml\"]\naddress = \"127.0.0.1\"\nport = 7000\n";
@@ -97,14 +98,14 @@ TEST(ServeCommand, LoadsTheModulesThatAFederationFileListsAndNamesBothPlacesWher
 }
 
 TEST(ServeCommand, RecordsAllThatAReplayNeedsToComeToTheSameHash) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "serve-record.keys";
+  const test::TemporaryFolder folder("record");
+  const std::filesystem::path file = folder / "serve.keys";
   const Ended ended = serve({"--scene", "crowd", "--bat-count", "10", "--puck-count", "30", "--seed", "4", "--clients", "0", "--duration", "0.5", "--record", file.string()});
   ASSERT_EQ(ended.status, 0) << ended.words;
   const KeyLog log = read_key_log(file);
   require_complete(log, file.string());
   EXPECT_EQ(log.until, 0.5);
   EXPECT_EQ(replay(log, recorded_scene(log, file.string())), log.hash);
-  std::filesystem::remove(file);
 }
 
 TEST(ServeCommand, MorePlayersThanBatsEndAtOnce) {
@@ -122,7 +123,8 @@ TEST(ServeCommand, ResultsThatCannotBeWrittenAreNamedBeforeTheRun) {
 }
 
 TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
-  const std::filesystem::path report = std::filesystem::path(testing::TempDir()) / ("serve-" + std::to_string(getpid()) + ".json");
+  const test::TemporaryFolder folder("report");
+  const std::filesystem::path report = folder / "serve.json";
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--pace", "synchronous", "--port", "0", "--report", report.string()}, {});
   const auto limit = std::chrono::steady_clock::now() + 6s;  // longer than the RTI lets a federate be silent
@@ -130,14 +132,14 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   server.stop(5s);
   EXPECT_EQ(server.ending()->exit_status, 130) << server.last_words();
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(report)).at("why_invalid"), "interrupted");
-  std::filesystem::remove(report);
 }
 
 TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlayerHoldsNobodyBack) {
   std::vector<std::string> hashes;
   for (const bool is_managed : {false, true, true}) {
     const bool loses_one = hashes.size() == 2;
-    const std::filesystem::path report = std::filesystem::path(testing::TempDir()) / ("serve-" + std::to_string(getpid()) + ".json");
+    const test::TemporaryFolder folder("report");
+    const std::filesystem::path report = folder / "serve.json";
     std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "6", "--clients", "6", "--puck-count", "30", "--pace", "synchronous", "--port", "0", "--report", report.string(), "--duration"};
     flags.push_back(loses_one ? "200" : "2");
     if (is_managed) flags.push_back("--time-management");
@@ -160,16 +162,15 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     EXPECT_EQ(told.at("ticks"), loses_one ? 6001 : 61);
     EXPECT_EQ(told.at("lost_federates"), loses_one ? 3 : 0);
     hashes.push_back(told.at("state_hash"));
-    std::filesystem::remove(report);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthers) {
-  const std::filesystem::path folder = testing::TempDir();
-  const std::string file = (folder / ("listed-" + std::to_string(getpid()) + ".toml")).string();
-  const int port = 20'000 + getpid() % 10'000;
-  std::ofstream(file) << "federation = \"listed\"\nfom = \"" + test::source_folder() + "/game/net/rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = \"127.0.0.1\"\nport = " + std::to_string(port) +
+  const test::TemporaryFolder folder("listed");
+  const std::string file = (folder / "listed.toml").string();
+  const test::ReservedPort port;
+  std::ofstream(file) << "federation = \"listed\"\nfom = \"" + test::source_folder() + "/game/net/rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = \"127.0.0.1\"\nport = " + port.text() +
                              "\n[[node]]\nname = \"Ada\"\n[[node]]\nname = \"Grace\"\n";
   const std::vector<std::string> flags{"--scene", "match", "--federation", file, "--duration", "0.3", "--rate", "60", "--patience"};
   const auto serve_for = [&](const std::string& patience_s) {
@@ -179,7 +180,7 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   };
   const auto first = serve_for("20");
   while (!first->line_after("listening on ") && !first->ending()) first->attend(10ms);
-  const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + std::to_string(port), "--federation", "listed", "--duration", "0.2"});
+  const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + port.text(), "--federation", "listed", "--duration", "0.2"});
   EXPECT_EQ(stranger.status, 14);
   EXPECT_THAT(stranger.words, HasSubstr("members are listed by name in its federation file, and this federate is none of them"));
   const Ended listed = run("rink-bots", {"--federation-file", file, "--count", "2", "--duration", "0.2"});
@@ -196,7 +197,6 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   EXPECT_EQ(second->ending()->exit_status, 17);
   EXPECT_THAT(second->last_words(), HasSubstr("1 of 2 players came within 1 s; missing: Grace"));
   EXPECT_THAT(run("rink-bots", {"--federation-file", file, "--count", "3"}).words, HasSubstr("lists 2"));
-  std::filesystem::remove(file);
 }
 
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {

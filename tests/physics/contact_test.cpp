@@ -5,6 +5,7 @@
 
 #include "tests/physics/pressed_bodies.h"
 #include "tests/physics/scenes.h"
+#include "tests/words.h"
 
 namespace rink::physics::test {
 namespace {
@@ -148,7 +149,8 @@ TEST_P(PressedAtEveryRestitution, OpposedBatsHoldAPuckBetweenThem) {
   EXPECT_TRUE(world.is_held(puck));
 }
 
-INSTANTIATE_TEST_SUITE_P(Restitution, PressedAtEveryRestitution, testing::Values(0.0, 0.5, 0.9));
+INSTANTIATE_TEST_SUITE_P(Restitution, PressedAtEveryRestitution, testing::Values(0.0, 0.5, 0.9),
+                         [](const auto& restitution) { return "of_" + rink::test::words(restitution.param); });
 
 TEST(Collapse, ThreePucksOfAnyRestitutionSeparateInTime) {
   for (const double e : {0.0, 0.05, 0.2, 0.5, 0.9}) {

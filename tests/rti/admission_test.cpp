@@ -9,6 +9,7 @@
 #include "rti/admission/handshake.h"
 #include "rti/transport/guarded_transport.h"
 #include "tests/rti/seeded.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -159,7 +160,8 @@ TEST(Admission, RandomBytesGetNoMoreThanTheyAre) {
 }
 
 TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShort) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("rink_key_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "_" + std::to_string(std::random_device{}()));
+  const test::TemporaryFolder folder("key");
+  const std::filesystem::path file = folder / "harbour.key";
   std::ofstream(file) << "the harbour's own secret\n";
   const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
   EXPECT_EQ(SharedKey::load(file).prove(Role::rti, basis), ours().prove(Role::rti, basis));

@@ -20,13 +20,14 @@
 #include "rti/transport/readiness.h"
 #include "rti/transport/shared_ring.h"
 #include "tests/rti/rig.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::rti::testing {
 namespace {
 
 using namespace std::chrono_literals;
 
-std::string own_name(const char* what) { return std::string("test-") + what + "-" + std::to_string(getpid()); }
+std::string own_name(const char* what) { return test::unique_name(std::string("test-") + what); }
 
 struct Tale final : TransportListener {
   std::vector<ConnectionId> open;
@@ -329,9 +330,10 @@ TEST(SharedMemory, WhoComesWhenThereAreNoMoreFilesIsTurnedAwayAtOnce) {
 
 TEST(SharedMemory, ASecondListenerOfANameIsToldSo) {
   SharedMemoryTransport first, second;
-  first.listen(own_name("twice"));
+  const std::string name = own_name("twice");
+  first.listen(name);
   try {
-    second.listen(own_name("twice"));
+    second.listen(name);
     FAIL();
   } catch (const TransportError& error) {
     EXPECT_EQ(error.kind(), TransportError::Kind::in_use);

@@ -1,9 +1,6 @@
 // The kits: in-process, TCP, UDP, shared memory, the virtual network, and the sample of docs/transports.md.
 #include "tests/rti/transport_kits.h"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <chrono>
 #include <optional>
 
@@ -15,15 +12,10 @@
 #include "rti/transport/udp.h"
 #include "rti/transport/virtual_network.h"
 #include "tests/rti/sample_transport.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::rti::testing {
 namespace {
-
-/// A name that no other test, in this process or beside it, uses.
-std::string unique_name() {
-  static std::atomic<int> count = 0;
-  return "rink-kit-" + std::to_string(getpid()) + "-" + std::to_string(count++);
-}
 
 /// Endpoints of one process that find each other by name, and never wait.
 template <class Network, class Endpoint>
@@ -194,7 +186,7 @@ class SampleKit final : public TransportKit {
   }
 
  private:
-  const std::string name_ = unique_name();
+  const std::string name_ = test::unique_name("rink-kit");
   std::size_t queue_max_ = 1u << 20;
   sample::UnixTransport client_;
   std::optional<sample::UnixTransport> server_;
@@ -224,7 +216,7 @@ class SharedMemoryKit final : public TransportKit {
   }
 
  private:
-  const std::string name_ = unique_name();
+  const std::string name_ = test::unique_name("rink-kit");
   SharedMemorySettings settings_;
   SharedMemoryTransport client_;
   std::optional<SharedMemoryTransport> server_;

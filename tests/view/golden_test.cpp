@@ -14,6 +14,7 @@
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "tests/places.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::view {
 namespace {
@@ -286,7 +287,8 @@ TEST_F(GoldenImages, OfAReplay) {
   const game::Scene scene = game::load_scene("match");
   game::Playing playing(scene, {game::Playing::hand, game::Playing::hand}, 1, 0.0);
   playing.advance(8.0);
-  const std::string file = ::testing::TempDir() + "/still.keys";
+  const test::TemporaryFolder folder("replay");
+  const std::string file = (folder / "still.keys").string();
   game::write_key_log(file, game::log_of(playing.game(), scene, game::scene_text("match"), playing.keys()));
   application_ = std::make_unique<Application>(Surroundings{.make_match = [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }}, Settings());
   application_->play({.kind = MatchWish::Kind::replay, .address = file});

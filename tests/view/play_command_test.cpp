@@ -1,7 +1,6 @@
 // The command rink play, run as its users run it, without a display.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 #include "game/view/render/offscreen.h"
 #include "rti/transport/tcp.h"
 #include "tests/places.h"
+#include "tests/reserved_port.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::view {
@@ -40,8 +40,6 @@ bool can_draw() {
 
 class PlayCommand : public ::testing::Test {
  protected:
-  PlayCommand() : folder_(::testing::TempDir() + "/rink-view-" + ::testing::UnitTest::GetInstance()->current_test_info()->name()) { std::filesystem::create_directories(folder_); }
-  ~PlayCommand() override { std::filesystem::remove_all(folder_); }
   void SetUp() override {
     if (!can_draw()) GTEST_SKIP() << "no EGL with Mesa's surfaceless platform here";
   }
@@ -50,14 +48,14 @@ class PlayCommand : public ::testing::Test {
   /// The exit status; what was said on standard error is in `said_`.
   int play(const std::string& arguments, const std::string& script = {}, const std::string& further = {}) {
     std::ofstream(file("script")) << script;
-    const std::string command = "cd " + folder_.string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.string() + " XDG_DATA_HOME=" + folder_.string() + " " + test::binary_folder() + "/bin/rink-play " + arguments +
+    const std::string command = "cd " + folder_.path().string() + " && env -u DISPLAY -u WAYLAND_DISPLAY XDG_CONFIG_HOME=" + folder_.path().string() + " XDG_DATA_HOME=" + folder_.path().string() + " " + test::binary_folder() + "/bin/rink-play " + arguments +
                                 (script.empty() ? "" : " --offscreen --size 640x360 --script script") + further + " 2>err";
     const int status = std::system(command.c_str());
     said_ = test::text_of(file("err"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_{"play"};
   std::string said_;
 };
 
@@ -89,14 +87,15 @@ TEST_F(PlayCommand, GoesOnWhereNothingCanBeKept) {
   ASSERT_EQ(play("--bot expert" + nowhere, "3.5 down w\n4 tap m\n5 end\n"), 0) << said_;
   EXPECT_THAT(said_, HasSubstr("cannot write the settings to 'home/play.toml'"));
   EXPECT_THAT(said_, HasSubstr("home/matches"));
-  ASSERT_EQ(play("--host " + std::to_string(20'000 + getpid() % 20'000) + nowhere, "0.5 picture hosted.png\n"), 0) << said_;
+  const test::ReservedPort port;
+  ASSERT_EQ(play("--host " + port.text() + nowhere, "0.5 picture hosted.png\n"), 0) << said_;
   EXPECT_THAT(said_, HasSubstr("home/matches"));
   EXPECT_THAT(said_, Not(HasSubstr("cannot host")));
 }
 
 TEST_F(PlayCommand, KeepsTheRecordWhenItIsInterrupted) {
   std::ofstream(file("script")) << "4 picture playing.png\n1000000 end\n";
-  const std::string command = "cd " + folder_.string() + " && { " + test::binary_folder() + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
+  const std::string command = "cd " + folder_.path().string() + " && { " + test::binary_folder() + "/bin/rink-play --bot club --offscreen --size 320x240 --records kept --script script & } 2>err\n" +
                               "for i in $(seq 200); do [ -e playing.png ] && break; sleep 0.05; done; kill -INT $!; wait $!";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 130);
@@ -154,12 +153,12 @@ TEST_F(PlayCommand, RecordsAMatchThatItsReplayShowsAsItWas) {
 }
 
 TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
-  const std::string port = std::to_string(40'000 + getpid() % 20'000);
+  const test::ReservedPort port;
   std::ofstream(file("second")) << "4.5 down w\n4.9 up w\n9 end\n";
-  const std::string joining = "cd " + folder_.string() + " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; done; " + test::binary_folder() +
-                              "/bin/rink-play --offscreen --size 320x240 --scene arena --bats 8 --peer 127.0.0.1:" + port + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
+  const std::string joining = "cd " + folder_.path().string() + " && (for i in $(seq 100); do grep -q listening first_out 2>/dev/null && break; sleep 0.05; done; " + test::binary_folder() +
+                              "/bin/rink-play --offscreen --size 320x240 --scene arena --bats 8 --peer 127.0.0.1:" + port.text() + " --record second.keys --script second >second_out 2>&1; echo $? >second_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
-  ASSERT_EQ(play("--scene arena --bats 8 --peer-listen 127.0.0.1:" + port + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
+  ASSERT_EQ(play("--scene arena --bats 8 --peer-listen 127.0.0.1:" + port.text() + " --until 2.5 --record first.keys", "4.6 down a\n5 up a\n7 picture over.png\n7.5 end\n", " >first_out"), 0) << said_;
   for (int i = 0; i < 200 && !std::filesystem::exists(file("second_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::string first = test::text_of(file("first_out")), second = test::text_of(file("second_out"));
   const game::KeyLog log = game::read_key_log(std::filesystem::path(file("first.keys")));
@@ -177,11 +176,11 @@ TEST_F(PlayCommand, IsOneOfTwoPeersWhoseRecordIsTheGameThatOneEnginePlays) {
 class PlayCommandLong : public PlayCommand {};
 
 TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
-  const std::string port = std::to_string(20'000 + getpid() % 20'000);
+  const test::ReservedPort port;
   std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
-  const std::string joining = "cd " + folder_.string() + " && (sleep 1; " + test::binary_folder() + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port + " --script joining 2>joined_err; echo $? >joined_status) &";
+  const std::string joining = "cd " + folder_.path().string() + " && (sleep 1; " + test::binary_folder() + "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port.text() + " --script joining 2>joined_err; echo $? >joined_status) &";
   ASSERT_EQ(std::system(joining.c_str()), 0);
-  ASSERT_EQ(play("--host " + port + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
+  ASSERT_EQ(play("--host " + port.text() + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0) << said_;
   for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_THAT(test::text_of(file("joined_err")), HasSubstr("The match cannot go on"));
   EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));
