@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Runs ctest and ends with the tests that were skipped, the reason of each, and the total; with --long-share, runs this commit's seventh of the long tests."""
+import math
 import os
 import pathlib
 import re
@@ -58,9 +59,9 @@ def this_share(build):
 def run_share(build, folder, arguments):
     """A test that the limit ends is named. It fails only if it had half of the time, for then it hangs or must be split."""
     names = this_share(build)
-    # ctest wants an instant of the local day.
+    # ctest wants an instant of the local day, in whole seconds.
     os.environ["TZ"] = "UTC0"
-    stop = time.strftime("%H:%M:%S", time.gmtime(time.time() + SHARE_S))
+    stop = time.strftime("%H:%M:%S", time.gmtime(math.ceil(time.time() + SHARE_S)))
     chosen = "^(" + "|".join(re.sub(r"([^\w/])", r"\\\1", name) for name in names) + ")$"
     status = run(build, folder, ["--no-tests=ignore", "-L", "long", "-R", chosen, "--stop-time", stop, *arguments])
     log, results = log_in(folder), results_in(folder)
