@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <random>
 #include <vector>
@@ -132,7 +133,14 @@ TEST(ThreadedMatching, NobodyIsWokenForLittle) {
 }
 
 TEST(ThreadedMatching, ASecondCoreThatWasNeverNeededEnds) {
-  for (int i = 0; i < 50; ++i) rti::SecondCore idle;
+  const auto thread_count = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}); };
+  const auto before = thread_count();
+  for (int i = 0; i < 50; ++i) {
+    const rti::SecondCore idle;
+    EXPECT_EQ(thread_count(), before + 1);
+    EXPECT_EQ(idle.task_count(), 0u);
+  }
+  EXPECT_EQ(thread_count(), before);
 }
 
 TEST(ThreadedMatching, EveryTaskHasRunWhenItsWaitReturns) {
