@@ -10,6 +10,7 @@
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"
 #include "tests/match/match_scene.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
