@@ -166,6 +166,36 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+/// Its processes' threads, from the kernel.
+std::ptrdiff_t thread_count(const Process& process) {
+  return std::distance(std::filesystem::directory_iterator("/proc/" + std::to_string(process.id()) + "/task"), {});
+}
+
+TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
+  std::vector<nlohmann::json> reports;
+  std::vector<std::ptrdiff_t> threads;
+  for (const bool has_second_core : {false, true}) {
+    const test::TemporaryFolder folder("second-core");
+    const std::filesystem::path report = folder / "serve.json";
+    std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "4", "--clients", "4", "--puck-count", "4000", "--scheme", "region", "--pace", "synchronous", "--port", "0",
+                                   "--duration", "0.5", "--report", report.string()};
+    if (has_second_core) flags.push_back("--second-core");
+    Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
+    const std::optional<std::string> place = place_of(server);
+    ASSERT_TRUE(place) << server.last_words();
+    threads.push_back(thread_count(server));
+    EXPECT_EQ(run("rink-bots", {"--connect", *place, "--count", "4", "--seed", "5", "--duration", "0.5"}).status, 0);
+    for (int i = 0; i < 1000 && !server.ending(); ++i) server.attend(10ms);
+    ASSERT_TRUE(server.ending());
+    EXPECT_EQ(server.ending()->exit_status, 0) << server.last_words();
+    reports.push_back(nlohmann::json::parse(std::ifstream(report)));
+  }
+  EXPECT_EQ(threads[1], threads[0] + 1);
+  for (const char* key : {"state_hash", "ticks", "scope_entries", "scope_exits", "state_bytes_sent", "filter_regions_moved", "filter_pairs_tested", "messages_sent"})
+    EXPECT_EQ(reports[0].at(key), reports[1].at(key)) << key;
+  EXPECT_GT(reports[0].at("scope_exits"), 0);
+}
+
 TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthers) {
   const test::TemporaryFolder folder("listed");
   const std::string file = (folder / "listed.toml").string();
