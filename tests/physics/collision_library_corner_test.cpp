@@ -83,7 +83,7 @@ TEST(SharpCorners, AreEarlyByUpToARadiusWithUpToARightAngleOfError) {
 
 /// The numbers of the row of the documents' table that begins with `name`.
 std::vector<double> documented(const std::string& name) {
-  std::ifstream document(test::source_folder() + "/docs/collision.md");
+  std::ifstream document(rink::test::source_folder() + "/docs/collision.md");
   std::vector<double> numbers;
   for (std::string line; std::getline(document, line);) {
     if (!line.starts_with("| " + name + " |")) continue;

@@ -135,7 +135,15 @@ void expect_same_with_stops(std::uint64_t first, std::uint64_t last, double dura
 
 TEST(Stops, ChangeNothingInThirtyThrongs) { expect_same_with_stops(0, 30, 2.0); }
 
-TEST(StopsLong, ChangeNothingInThousandThrongs) { expect_same_with_stops(1000, 2000, 6.0); }
+/// A thousand throngs in ten parts.
+class StopsLong : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(StopsLong, ChangeNothingInHundredThrongs) {
+  const std::uint64_t first = 1000 + 100 * GetParam();
+  expect_same_with_stops(first, first + 100, 6.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, StopsLong, testing::Range<std::uint64_t>(0, 10));
 
 }  // namespace
 }  // namespace rink::physics::test
