@@ -17,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -30,6 +31,8 @@ done)";
 constexpr const char* cmake = R"([ -z "${FAILS_TO_CONFIGURE:-}" ] || { echo "CMake Error: no compass"; exit 1; }
 case $2 in release) touch build/build.ninja ;; *) touch "build-$2/build.ninja" ;; esac)";
 constexpr const char* python = R"(exit "${STATUS:-0}")";
+constexpr const char* cpack = R"([ -z "${FAILS_TO_PACK:-}" ] || { echo "CPack Error: no crate"; exit 1; }
+touch rink_7.8.9_amd64.deb)";
 constexpr const char* dpkg_query = R"(shift 2
 for package in "$@"; do [ "$package" = "${MISSING:-}" ] || echo "$package installed"; done)";
 constexpr const char* apt_get = R"([ -z "${FAILS_TO_INSTALL:-}" ] || { echo "E: no network"; exit 100; })";
@@ -38,13 +41,14 @@ class Launcher : public testing::Test {
  protected:
   Launcher() {
     std::filesystem::copy_file(test::source_folder() + "/rink", folder_ / "rink");
+    std::ofstream(folder_ / "CMakeLists.txt") << "project(rink VERSION 7.8.9 LANGUAGES CXX)\n";
     for (const char* name : {"stubs", "tools"}) std::filesystem::create_directory(folder_ / name);
-    for (const char* tool : {"sh", "dirname", "basename", "readlink", "sed", "sort", "grep", "awk", "mkdir", "flock", "cat", "mktemp", "rm", "nproc", "touch", "chmod", "env"}) {
+    for (const char* tool : {"sh", "dirname", "basename", "readlink", "sed", "sort", "grep", "awk", "mkdir", "flock", "cat", "mktemp", "rm", "nproc", "touch", "chmod", "env", "ls"}) {
       for (const std::string place : {"/usr/bin/", "/bin/"})
         if (std::error_code taken; std::filesystem::exists(place + tool)) std::filesystem::create_symlink(place + tool, folder_ / "tools" / tool, taken);
     }
     for (const auto& [name, does] : std::map<std::string, const char*>{
-             {"ninja", ninja}, {"cmake", cmake}, {"python3", python}, {"dpkg-query", dpkg_query}, {"apt-get", apt_get}, {"sudo", "exit 1"}, {"id", "echo \"${USER_NUMBER:-0}\""}})
+             {"ninja", ninja}, {"cmake", cmake}, {"python3", python}, {"dpkg-query", dpkg_query}, {"apt-get", apt_get}, {"sudo", "exit 1"}, {"cpack", cpack}, {"id", "echo \"${USER_NUMBER:-0}\""}})
       stub(name, does);
   }
 
@@ -80,7 +84,7 @@ class Launcher : public testing::Test {
 TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
-    for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots", "simulate", "replay", "accuracy", "bench", "setup"})
+    for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots", "simulate", "replay", "accuracy", "bench", "package", "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
   }
@@ -88,7 +92,7 @@ TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
 
 TEST_F(Launcher, RefusesACommandThatThereIsNot) {
   EXPECT_EQ(run("ply"), 2);
-  EXPECT_THAT(said_, AllOf(HasSubstr("there is no command 'ply'"), HasSubstr("usage: ./rink COMMAND")));
+  EXPECT_THAT(said_, AllOf(HasSubstr("there is no command 'ply'"), HasSubstr("COMMAND [ARGUMENTS]")));
   EXPECT_EQ(printed_, "");
   EXPECT_THAT(calls_, IsEmpty());
 }
@@ -153,6 +157,25 @@ TEST_F(Launcher, RunsTheThreadedTestsUnderTheThreadSanitizer) {
   EXPECT_THAT(calls_, ElementsAre("cmake --preset tsan", "ninja -C ./build-tsan threaded-tests", runs + " -L threaded"));
   run("test --preset tsan -R Udp");
   EXPECT_THAT(calls_, ElementsAre("ninja -C ./build-tsan all", runs + " -LE long -R Udp"));
+}
+
+TEST_F(Launcher, SaysItsVersionWithoutBuilding) {
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_EQ(printed_, "rink 7.8.9 (commit unknown)\n") << "there is no git here";
+  EXPECT_THAT(calls_, IsEmpty());
+}
+
+TEST_F(Launcher, PacksWhatItHasBuilt) {
+  EXPECT_EQ(run("package", "MISSING=help2man"), 0) << said_;
+  EXPECT_THAT(calls_, testing::Contains("apt-get install -y --no-install-recommends help2man"));
+  EXPECT_EQ(std::vector<std::string>(calls_.end() - 3, calls_.end()), (std::vector<std::string>{"ninja -C ./build all", "ninja -C ./build man-pages", "cpack -G DEB"}));
+  EXPECT_THAT(printed_, EndsWith("/build/rink_7.8.9_amd64.deb\n"));
+  EXPECT_EQ(run("package", "FAILS_TO_PACK=1"), 4);
+  EXPECT_THAT(said_, AllOf(HasSubstr("CPack Error: no crate"), HasSubstr("packing failed")));
+  EXPECT_EQ(run("package --help"), 0);
+  EXPECT_THAT(calls_, IsEmpty());
+  EXPECT_EQ(run("package deb"), 2);
+  EXPECT_THAT(calls_, IsEmpty());
 }
 
 TEST_F(Launcher, RefusesAPresetThatThereIsNot) {
