@@ -74,8 +74,10 @@ def run_share(build, folder, arguments):
     if any(seconds >= SHARE_S / 2 for seconds in took_s.values()):
         print("\nwhat takes more than half of the limit hangs, or must be split")
         return status or 1
+    if not results:
+        return status
     failed = re.search(r"The following tests FAILED:\n((?:\s+\d+ - .*\n?)+)", log)
-    return 0 if failed and all(line.endswith(" (Timeout)") for line in failed[1].strip().split("\n")) else status
+    return status if failed and not all(line.endswith(" (Timeout)") for line in failed[1].strip().split("\n")) else 0
 
 
 def summarise(folder):
