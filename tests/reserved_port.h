@@ -10,8 +10,8 @@
 
 namespace rink::test {
 
-/// A TCP port that the kernel chose and gives to nobody who asks for any, as long as this lives. Who names it may listen there: this socket is bound, but does not
-/// listen.
+/// A TCP port that the kernel chose and gives to nobody who asks for any, as long as this lives.
+/// Who names it may listen there: this socket is bound, but does not listen.
 class ReservedPort {
  public:
   ReservedPort() {
@@ -20,8 +20,10 @@ class ReservedPort {
     socklen_t size = sizeof place;
     place.sin_family = AF_INET;
     auto* address = reinterpret_cast<sockaddr*>(&place);
-    const bool is_bound = setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 && bind(socket_, address, size) == 0;
-    if (!is_bound || getsockname(socket_, address, &size) != 0) throw std::runtime_error("no port for the test");
+    const bool is_bound = setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+                          bind(socket_, address, size) == 0;
+    if (!is_bound || getsockname(socket_, address, &size) != 0)
+      throw std::runtime_error("no port for the test");
     number_ = ntohs(place.sin_port);
   }
   ~ReservedPort() { close(socket_); }

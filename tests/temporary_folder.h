@@ -1,4 +1,5 @@
-// What tests of files and commands share: a folder that goes with them, names that no process beside them has, and what a file holds.
+// What tests of files and commands share: a folder that goes with them, names that no process
+// beside them has, and what a file holds.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -52,7 +52,8 @@ std::string shown(double number) {
   std::string text = std::to_string(number);
   if (std::stod(text) != number) {
     std::array<char, 32> all;
-    return {all.data(), std::to_chars(all.data(), all.data() + all.size(), number, std::chars_format::general, 9).ptr};
+    char* const end = all.data() + all.size();
+    return {all.data(), std::to_chars(all.data(), end, number, std::chars_format::general, 9).ptr};
   }
   text.erase(text.find_last_not_of('0') + 1);
   return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
@@ -252,8 +253,9 @@ std::string file_name_of(const std::string& expression) {
   std::uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a (Fowler, Noll, Vo 1991)
   for (const char c : name) digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   std::array<char, 16> digits;
-  const std::string hexadecimal(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), digest, 16).ptr);
-  return name.substr(0, size_max - 17) + "-" + std::string(16 - hexadecimal.size(), '0') + hexadecimal;
+  char* const end = digits.data() + digits.size();
+  const std::string shown(digits.data(), std::to_chars(digits.data(), end, digest, 16).ptr);
+  return name.substr(0, size_max - 17) + "-" + std::string(16 - shown.size(), '0') + shown;
 }
 
 }  // namespace rink::im

@@ -15,17 +15,22 @@ class BenchCommand : public test::CommandTest {
  protected:
   BenchCommand() : CommandTest("bench") {}
   void SetUp() override {
-    if (!std::filesystem::exists(test::binary_folder() + "/bin/rink-bench")) GTEST_SKIP() << "this build has no benchmarks";
+    if (!std::filesystem::exists(test::binary_folder() + "/bin/rink-bench"))
+      GTEST_SKIP() << "this build has no benchmarks";
   }
   int bench(const std::string& arguments) { return run("bench " + arguments); }
 };
 
 TEST_F(BenchCommand, RunsWhatTheFilterChoosesAndWritesItAsJson) {
-  ASSERT_EQ(bench("--filter '^physics/collision/does_disc_overlap_box/' --json " + file("out.json") + " --benchmark_min_time=0.001"), 0) << said_;
+  ASSERT_EQ(bench("--filter '^physics/collision/does_disc_overlap_box/' --json " +
+                  file("out.json") + " --benchmark_min_time=0.001"),
+            0)
+      << said_;
   const nlohmann::json written = nlohmann::json::parse(content("out.json"));
   ASSERT_EQ(written.at("benchmarks").size(), 1u);
   const nlohmann::json& one = written.at("benchmarks")[0];
-  EXPECT_THAT(one.at("name").get<std::string>(), HasSubstr("physics/collision/does_disc_overlap_box"));
+  EXPECT_THAT(one.at("name").get<std::string>(),
+              HasSubstr("physics/collision/does_disc_overlap_box"));
   EXPECT_GT(one.at("real_time").get<double>(), 0.0);
   EXPECT_FALSE(one.contains("error_occurred"));
   EXPECT_THAT(printed_, HasSubstr("physics/collision/does_disc_overlap_box"));
@@ -33,10 +38,13 @@ TEST_F(BenchCommand, RunsWhatTheFilterChoosesAndWritesItAsJson) {
 
 TEST_F(BenchCommand, ListsWhatItHas) {
   ASSERT_EQ(bench("--benchmark_list_tests"), 0) << said_;
-  for (const char* name : {"im/", "physics/", "rti/", "play/", "view/"}) EXPECT_THAT(printed_, HasSubstr("\n" + std::string(name))) << "no benchmark of " << name;
+  for (const char* name : {"im/", "physics/", "rti/", "play/", "view/"})
+    EXPECT_THAT(printed_, HasSubstr("\n" + std::string(name))) << "no benchmark of " << name;
 }
 
-TEST_F(BenchCommand, FailsWhereTheFilterChoosesNothing) { EXPECT_EQ(bench("--filter ^nothing_at_all$"), 1); }
+TEST_F(BenchCommand, FailsWhereTheFilterChoosesNothing) {
+  EXPECT_EQ(bench("--filter ^nothing_at_all$"), 1);
+}
 
 TEST_F(BenchCommand, RefusesAFlagWithoutItsValueAndOneThatItDoesNotKnow) {
   for (const char* flag : {"--filter", "--json"}) {
@@ -50,7 +58,8 @@ TEST_F(BenchCommand, RefusesAFlagWithoutItsValueAndOneThatItDoesNotKnow) {
 TEST_F(BenchCommand, ExplainsItself) {
   for (const char* flag : {"--help", "-h"}) {
     EXPECT_EQ(bench(flag), 0);
-    EXPECT_THAT(printed_, AllOf(HasSubstr("usage: rink bench"), HasSubstr("--filter REGEX"), HasSubstr("Example:")));
+    EXPECT_THAT(printed_, AllOf(HasSubstr("usage: rink bench"), HasSubstr("--filter REGEX"),
+                                HasSubstr("Example:")));
   }
 }
 

@@ -1,4 +1,5 @@
-// The launcher ./rink: what it installs, builds and runs for each command, and the status that it ends with. All that it calls are stubs that note how they were called.
+// The launcher ./rink: what it installs, builds and runs for each command, and the status that it
+// ends with. All that it calls are stubs that note how they were called.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -23,19 +24,23 @@ using testing::IsEmpty;
 using testing::Not;
 
 /// Makes `rink-COMMAND` programs that say their arguments and end with $STATUS.
-constexpr const char* ninja = R"([ -z "${FAILS_TO_BUILD:-}" ] || { echo "harbour.cpp:3: error: no ship"; exit 1; }
+constexpr const char* ninja =
+    R"([ -z "${FAILS_TO_BUILD:-}" ] || { echo "harbour.cpp:3: error: no ship"; exit 1; }
 mkdir -p "$2/bin"
 for target in "$@"; do
   printf '#!/bin/sh\necho "$(basename "$0") got: $*"\nexit "${STATUS:-0}"\n' >"$2/bin/$target" 2>/dev/null && chmod +x "$2/bin/$target" || :
 done)";
-constexpr const char* cmake = R"([ -z "${FAILS_TO_CONFIGURE:-}" ] || { echo "CMake Error: no compass"; exit 1; }
+constexpr const char* cmake =
+    R"([ -z "${FAILS_TO_CONFIGURE:-}" ] || { echo "CMake Error: no compass"; exit 1; }
 case $2 in release) touch build/build.ninja ;; *) touch "build-$2/build.ninja" ;; esac)";
 constexpr const char* python = R"(exit "${STATUS:-0}")";
-constexpr const char* cpack = R"([ -z "${FAILS_TO_PACK:-}" ] || { echo "CPack Error: no crate"; exit 1; }
+constexpr const char* cpack =
+    R"([ -z "${FAILS_TO_PACK:-}" ] || { echo "CPack Error: no crate"; exit 1; }
 touch rink_7.8.9_amd64.deb)";
 constexpr const char* dpkg_query = R"(shift 2
 for package in "$@"; do [ "$package" = "${MISSING:-}" ] || echo "$package installed"; done)";
-constexpr const char* apt_get = R"([ -z "${FAILS_TO_INSTALL:-}" ] || { echo "E: no network"; exit 100; })";
+constexpr const char* apt_get =
+    R"([ -z "${FAILS_TO_INSTALL:-}" ] || { echo "E: no network"; exit 100; })";
 
 class Launcher : public testing::Test {
  protected:
@@ -43,34 +48,51 @@ class Launcher : public testing::Test {
     std::filesystem::copy_file(test::source_folder() + "/rink", folder_ / "rink");
     std::ofstream(folder_ / "CMakeLists.txt") << "project(rink VERSION 7.8.9 LANGUAGES CXX)\n";
     for (const char* name : {"stubs", "tools"}) std::filesystem::create_directory(folder_ / name);
-    for (const char* tool : {"sh", "dirname", "basename", "readlink", "sed", "sort", "grep", "awk", "mkdir", "flock", "cat", "mktemp", "rm", "nproc", "touch", "chmod", "env", "ls"}) {
+    for (const char* tool :
+         {"sh", "dirname", "basename", "readlink", "sed", "sort", "grep", "awk", "mkdir", "flock",
+          "cat", "mktemp", "rm", "nproc", "touch", "chmod", "env", "ls"}) {
       for (const std::string place : {"/usr/bin/", "/bin/"})
-        if (std::error_code taken; std::filesystem::exists(place + tool)) std::filesystem::create_symlink(place + tool, folder_ / "tools" / tool, taken);
+        if (std::error_code taken; std::filesystem::exists(place + tool))
+          std::filesystem::create_symlink(place + tool, folder_ / "tools" / tool, taken);
     }
-    for (const auto& [name, does] : std::map<std::string, const char*>{
-             {"ninja", ninja}, {"cmake", cmake}, {"python3", python}, {"dpkg-query", dpkg_query}, {"apt-get", apt_get}, {"sudo", "exit 1"}, {"cpack", cpack}, {"id", "echo \"${USER_NUMBER:-0}\""}})
+    for (const auto& [name, does] :
+         std::map<std::string, const char*>{{"ninja", ninja},
+                                            {"cmake", cmake},
+                                            {"python3", python},
+                                            {"dpkg-query", dpkg_query},
+                                            {"apt-get", apt_get},
+                                            {"sudo", "exit 1"},
+                                            {"cpack", cpack},
+                                            {"id", "echo \"${USER_NUMBER:-0}\""}})
       stub(name, does);
   }
 
   void stub(const std::string& name, const std::string& does) {
     const std::filesystem::path file = folder_ / "stubs" / name;
-    const std::string notes = name == "id" || name == "dpkg-query" ? "" : "echo \"$(basename \"$0\") $*\" >>" + (folder_ / "calls").string() + "\n";
+    const std::string notes =
+        name == "id" || name == "dpkg-query"
+            ? ""
+            : "echo \"$(basename \"$0\") $*\" >>" + (folder_ / "calls").string() + "\n";
     std::ofstream(file) << "#!/bin/sh\n" << notes << does << '\n';
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
   }
 
-  /// The exit status of `./rink ARGUMENTS` under `surroundings`, which are NAME=VALUE words; what was called meanwhile is in `calls_`, with our folder as ".".
+  /// The exit status of `./rink ARGUMENTS` under `surroundings`, which are NAME=VALUE words; what
+  /// was called meanwhile is in `calls_`, with our folder as ".".
   int run(const std::string& arguments, const std::string& surroundings = {}) {
     std::filesystem::remove(folder_ / "calls");
     const std::string own = folder_.path().string();
-    const std::string command = "cd / && env -i PATH=" + own + "/stubs:" + own + "/tools TMPDIR=" + own + " " + surroundings + " " + own + "/rink " + arguments + " >" + own + "/printed 2>" + own + "/said </dev/null";
+    const std::string command = "cd / && env -i PATH=" + own + "/stubs:" + own +
+                                "/tools TMPDIR=" + own + " " + surroundings + " " + own + "/rink " +
+                                arguments + " >" + own + "/printed 2>" + own + "/said </dev/null";
     const int status = std::system(command.c_str());
     printed_ = test::text_of(folder_ / "printed");
     said_ = test::text_of(folder_ / "said");
     calls_.clear();
     std::ifstream stream(folder_ / "calls");
     for (std::string line; std::getline(stream, line);) {
-      for (auto at = line.find(own); at != std::string::npos; at = line.find(own)) line.replace(at, own.size(), ".");
+      for (auto at = line.find(own); at != std::string::npos; at = line.find(own))
+        line.replace(at, own.size(), ".");
       calls_.push_back(line);
     }
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -84,7 +106,8 @@ class Launcher : public testing::Test {
 TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
-    for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots", "simulate", "replay", "accuracy", "bench", "package", "setup"})
+    for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots",
+                                "simulate", "replay", "accuracy", "bench", "package", "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
   }
@@ -92,14 +115,21 @@ TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
 
 TEST_F(Launcher, RefusesACommandThatThereIsNot) {
   EXPECT_EQ(run("ply"), 2);
-  EXPECT_THAT(said_, AllOf(HasSubstr("there is no command 'ply'"), HasSubstr("COMMAND [ARGUMENTS]")));
+  EXPECT_THAT(said_,
+              AllOf(HasSubstr("there is no command 'ply'"), HasSubstr("COMMAND [ARGUMENTS]")));
   EXPECT_EQ(printed_, "");
   EXPECT_THAT(calls_, IsEmpty());
 }
 
 TEST_F(Launcher, BuildsWhatACommandNeedsAndHandsItTheArguments) {
-  const std::map<std::string, std::string> targets{{"compare", "rink-compare rink-serve rink-bots"}, {"play", "rink-play rink-serve"}, {"serve", "rink-serve"}, {"bots", "rink-bots"},
-                                                   {"duel", "rink-duel"}, {"peer", "rink-peer"}, {"simulate", "rink-simulate"}, {"replay", "rink-replay"}};
+  const std::map<std::string, std::string> targets{{"compare", "rink-compare rink-serve rink-bots"},
+                                                   {"play", "rink-play rink-serve"},
+                                                   {"serve", "rink-serve"},
+                                                   {"bots", "rink-bots"},
+                                                   {"duel", "rink-duel"},
+                                                   {"peer", "rink-peer"},
+                                                   {"simulate", "rink-simulate"},
+                                                   {"replay", "rink-replay"}};
   for (const auto& [command, all] : targets) {
     EXPECT_EQ(run(command + " --help one 'two  words'"), 0) << said_;
     EXPECT_EQ(printed_, "rink-" + command + " got: --help one two  words\n");
@@ -116,7 +146,8 @@ TEST_F(Launcher, MeasuresWithoutAsserts) {
 }
 
 TEST_F(Launcher, EndsWithTheStatusOfItsCommand) {
-  for (const char* command : {"compare", "play", "serve", "peer", "duel", "bots", "simulate", "replay", "accuracy", "bench", "test"})
+  for (const char* command : {"compare", "play", "serve", "peer", "duel", "bots", "simulate",
+                              "replay", "accuracy", "bench", "test"})
     EXPECT_EQ(run(command, "STATUS=17"), 17) << command;
 }
 
@@ -126,21 +157,25 @@ TEST_F(Launcher, ConfiguresOnceUnlessItIsAskedTo) {
   run("serve");
   EXPECT_THAT(calls_, ElementsAre("ninja -C ./build rink-serve"));
   run("serve", "RINK_CONFIGURE='-DRINK_UNITY=OFF -DA=B'");
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset release -DRINK_UNITY=OFF -DA=B", "ninja -C ./build rink-serve"));
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset release -DRINK_UNITY=OFF -DA=B",
+                                  "ninja -C ./build rink-serve"));
 }
 
 TEST_F(Launcher, SaysWhatKeptItFromBuildingAndRunsNothing) {
   EXPECT_EQ(run("serve", "FAILS_TO_CONFIGURE=1"), 4);
-  EXPECT_THAT(said_, AllOf(HasSubstr("CMake Error: no compass"), HasSubstr("rink: configuring failed")));
+  EXPECT_THAT(said_,
+              AllOf(HasSubstr("CMake Error: no compass"), HasSubstr("rink: configuring failed")));
   EXPECT_EQ(run("serve", "FAILS_TO_BUILD=1"), 4);
-  EXPECT_THAT(said_, AllOf(HasSubstr("harbour.cpp:3: error: no ship"), HasSubstr("rink: the build failed")));
+  EXPECT_THAT(said_, AllOf(HasSubstr("harbour.cpp:3: error: no ship"),
+                           HasSubstr("rink: the build failed")));
   EXPECT_EQ(printed_, "");
 }
 
 TEST_F(Launcher, RunsTheQuickTestsUnlessOthersAreAskedFor) {
   const std::string runs = "python3 ./tests/run_ctest.py ./build";
   EXPECT_EQ(run("test"), 0) << said_;
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset release", "ninja -C ./build all", runs + " -LE long"));
+  EXPECT_THAT(calls_,
+              ElementsAre("cmake --preset release", "ninja -C ./build all", runs + " -LE long"));
   run("test -R physics");
   EXPECT_EQ(calls_.back(), runs + " -LE long -R physics");
   run("test --long -j 1");
@@ -148,13 +183,15 @@ TEST_F(Launcher, RunsTheQuickTestsUnlessOthersAreAskedFor) {
   run("test --long-share");
   EXPECT_EQ(calls_.back(), runs + " --long-share");
   run("test --preset asan");
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset asan", "ninja -C ./build-asan all", runs + "-asan -LE long"));
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset asan", "ninja -C ./build-asan all",
+                                  runs + "-asan -LE long"));
 }
 
 TEST_F(Launcher, RunsTheThreadedTestsUnderTheThreadSanitizer) {
   const std::string runs = "python3 ./tests/run_ctest.py ./build-tsan";
   run("test --preset tsan");
-  EXPECT_THAT(calls_, ElementsAre("cmake --preset tsan", "ninja -C ./build-tsan threaded-tests", runs + " -L threaded"));
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset tsan", "ninja -C ./build-tsan threaded-tests",
+                                  runs + " -L threaded"));
   run("test --preset tsan -R Udp");
   EXPECT_THAT(calls_, ElementsAre("ninja -C ./build-tsan all", runs + " -LE long -R Udp"));
 }
@@ -168,7 +205,9 @@ TEST_F(Launcher, SaysItsVersionWithoutBuilding) {
 TEST_F(Launcher, PacksWhatItHasBuilt) {
   EXPECT_EQ(run("package", "MISSING=help2man"), 0) << said_;
   EXPECT_THAT(calls_, testing::Contains("apt-get install -y --no-install-recommends help2man"));
-  EXPECT_EQ(std::vector<std::string>(calls_.end() - 3, calls_.end()), (std::vector<std::string>{"ninja -C ./build all", "ninja -C ./build man-pages", "cpack -G DEB"}));
+  EXPECT_EQ(std::vector<std::string>(calls_.end() - 3, calls_.end()),
+            (std::vector<std::string>{"ninja -C ./build all", "ninja -C ./build man-pages",
+                                      "cpack -G DEB"}));
   EXPECT_THAT(printed_, EndsWith("/build/rink_7.8.9_amd64.deb\n"));
   EXPECT_EQ(run("package", "FAILS_TO_PACK=1"), 4);
   EXPECT_THAT(said_, AllOf(HasSubstr("CPack Error: no crate"), HasSubstr("packing failed")));
@@ -189,7 +228,8 @@ TEST_F(Launcher, RefusesAPresetThatThereIsNot) {
 TEST_F(Launcher, ExplainsTestsAndSetupWithoutBuilding) {
   for (const char* flag : {"--help", "-h"}) {
     EXPECT_EQ(run(std::string("test ") + flag), 0);
-    EXPECT_THAT(printed_, AllOf(HasSubstr("usage: ./rink test"), HasSubstr("--long-share"), HasSubstr("--preset")));
+    EXPECT_THAT(printed_, AllOf(HasSubstr("usage: ./rink test"), HasSubstr("--long-share"),
+                                HasSubstr("--preset")));
     EXPECT_EQ(run(std::string("setup ") + flag), 0);
     EXPECT_THAT(printed_, AllOf(HasSubstr("usage: ./rink setup"), HasSubstr("libeigen3-dev")));
     EXPECT_THAT(calls_, IsEmpty());
@@ -202,7 +242,8 @@ TEST_F(Launcher, InstallsWhatIsMissingAndOnlyThat) {
   EXPECT_EQ(run("setup"), 0) << said_;
   EXPECT_THAT(calls_, IsEmpty());
   EXPECT_EQ(run("setup", "MISSING=libeigen3-dev"), 0) << said_;
-  EXPECT_THAT(calls_, ElementsAre("apt-get update", "apt-get install -y --no-install-recommends libeigen3-dev"));
+  EXPECT_THAT(calls_, ElementsAre("apt-get update",
+                                  "apt-get install -y --no-install-recommends libeigen3-dev"));
   EXPECT_EQ(run("serve", "MISSING=libeigen3-dev RINK_SKIP_PACKAGES=1"), 0) << said_;
   EXPECT_THAT(calls_, ElementsAre("cmake --preset release", "ninja -C ./build rink-serve"));
 }
@@ -217,7 +258,9 @@ TEST_F(Launcher, InstallsClangOnlyForTheTestsThatNeedIt) {
 TEST_F(Launcher, SaysWhatToRunWhereItMayNotInstall) {
   for (const char* command : {"setup", "test", "compare", "bench"}) {
     EXPECT_EQ(run(command, "MISSING=libeigen3-dev USER_NUMBER=1000"), 3) << command;
-    EXPECT_THAT(said_, AllOf(HasSubstr("no right to install"), HasSubstr("apt-get install -y --no-install-recommends libeigen3-dev")));
+    EXPECT_THAT(said_,
+                AllOf(HasSubstr("no right to install"),
+                      HasSubstr("apt-get install -y --no-install-recommends libeigen3-dev")));
     EXPECT_THAT(calls_, Not(testing::Contains(HasSubstr("ninja")))) << command;
   }
 }
@@ -225,12 +268,14 @@ TEST_F(Launcher, SaysWhatToRunWhereItMayNotInstall) {
 TEST_F(Launcher, AsksSudoWhereThatNeedsNoPassword) {
   stub("sudo", "[ \"$1\" = -n ] || \"$@\"");
   EXPECT_EQ(run("setup", "MISSING=libeigen3-dev USER_NUMBER=1000"), 0) << said_;
-  EXPECT_THAT(calls_, testing::Contains("apt-get install -y --no-install-recommends libeigen3-dev"));
+  EXPECT_THAT(calls_,
+              testing::Contains("apt-get install -y --no-install-recommends libeigen3-dev"));
 }
 
 TEST_F(Launcher, ShowsWhyPackagesCouldNotBeInstalled) {
   EXPECT_EQ(run("setup", "MISSING=libeigen3-dev FAILS_TO_INSTALL=1"), 3);
-  EXPECT_THAT(said_, AllOf(HasSubstr("E: no network"), HasSubstr("apt-get could not install libeigen3-dev")));
+  EXPECT_THAT(said_, AllOf(HasSubstr("E: no network"),
+                           HasSubstr("apt-get could not install libeigen3-dev")));
 }
 
 TEST_F(Launcher, NamesThePackagesWhereTheSystemIsNoDebian) {

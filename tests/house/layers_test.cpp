@@ -50,21 +50,28 @@ const std::vector<Layer> layers{
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};
 const Names clock_headers{"chrono", "ctime", "time.h"};
-const Names file_headers{"cstdio", "stdio.h", "fstream", "iostream", "ostream", "istream", "ios", "syncstream", "filesystem", "dirent.h", "fcntl.h", "spdlog"};
-const Names system_headers{"unistd.h", "sys/", "poll.h", "csignal", "signal.h", "dlfcn.h", "sched.h", "random"};
-const Names thread_headers{"thread", "future", "mutex", "shared_mutex", "condition_variable", "semaphore", "latch", "barrier", "stop_token", "pthread.h"};
+const Names file_headers{"cstdio", "stdio.h",    "fstream",    "iostream", "ostream", "istream",
+                         "ios",    "syncstream", "filesystem", "dirent.h", "fcntl.h", "spdlog"};
+const Names system_headers{"unistd.h", "sys/",    "poll.h",  "csignal",
+                           "signal.h", "dlfcn.h", "sched.h", "random"};
+const Names thread_headers{"thread",    "future", "mutex",   "shared_mutex", "condition_variable",
+                           "semaphore", "latch",  "barrier", "stop_token",   "pthread.h"};
 
 /// Both advise the kernel to use large pages, which changes nothing but speed.
-const std::map<std::string, std::string> exceptions{{"im/matching/buffer.cpp", "sys/mman.h"}, {"game/physics/large_pages.h", "sys/mman.h"}};
+const std::map<std::string, std::string> exceptions{{"im/matching/buffer.cpp", "sys/mman.h"},
+                                                    {"game/physics/large_pages.h", "sys/mman.h"}};
 
-/// The load generator watches processes and instants, so it owns clocks as commands do. A transport measures how long its poll waits for its sockets.
+/// The load generator watches processes and instants, so it owns clocks as commands do. A transport
+/// measures how long its poll waits for its sockets.
 bool may_read_clocks(const SourceFile& source) {
-  return source.is_command() || source.is_in("loadgen") || source.is_in("bench") || source.is_in("tests") || source.is_in("rti/transport");
+  return source.is_command() || source.is_in("loadgen") || source.is_in("bench") ||
+         source.is_in("tests") || source.is_in("rti/transport");
 }
 
 /// Whether `line` names a clock, be it for an alias, or calls one that has no type.
 bool names_a_clock(const std::string& line) {
-  static const std::regex clock(R"(\b(steady|system|high_resolution|file|utc|tai|gps)_clock\b|\b(clock_gettime|gettimeofday|timespec_get|ftime|__rdtscp?)\b|\bstd::(time|clock)\s*\(|\btime\s*\((0|NULL|nullptr)\))");
+  static const std::regex clock(
+      R"(\b(steady|system|high_resolution|file|utc|tai|gps)_clock\b|\b(clock_gettime|gettimeofday|timespec_get|ftime|__rdtscp?)\b|\bstd::(time|clock)\s*\(|\btime\s*\((0|NULL|nullptr)\))");
   return std::regex_search(line, clock);
 }
 
@@ -113,7 +120,8 @@ Graph includes_between(const std::vector<SourceFile>& sources, const NameOf& nam
   Graph graph;
   for (const SourceFile& source : sources)
     for (const std::string& line : source.lines)
-      if (const auto include = included(line); include && include->is_ours && name_of(include->path) != name_of(source.path))
+      if (const auto include = included(line);
+          include && include->is_ours && name_of(include->path) != name_of(source.path))
         graph[name_of(source.path)].insert(name_of(include->path));
   return graph;
 }
@@ -146,7 +154,9 @@ bool starts_with_any(const std::string& path, const Names& prefixes) {
 }
 
 bool is_impure(const std::string& header) {
-  return std::ranges::any_of(std::array{&network_headers, &clock_headers, &file_headers, &system_headers, &thread_headers}, [&](const Names* names) { return starts_with_any(header, *names); });
+  return std::ranges::any_of(
+      std::array{&network_headers, &clock_headers, &file_headers, &system_headers, &thread_headers},
+      [&](const Names* names) { return starts_with_any(header, *names); });
 }
 
 /// What `layer` may include from `source`: commands say which version they are, those of the game choose a transport.
@@ -185,7 +195,9 @@ TEST(Layers, EveryFolderWithCodeHasItsLayer) {
 TEST(Layers, PureFoldersDoNoInputOrOutputAndReadNoClock) {
   for_each_include([](const SourceFile& source, std::size_t line, const Include& include) {
     if (!source.is_in("im") && !source.is_in("game/physics") && !source.is_in("game/peer")) return;
-    if (const auto known = exceptions.find(source.path); known != exceptions.end() && include.path == known->second) return;
+    if (const auto known = exceptions.find(source.path);
+        known != exceptions.end() && include.path == known->second)
+      return;
     if (is_impure(include.path))
       report(source, line, "<" + include.path + "> in a pure folder: im, game/physics and game/peer are handed time, seeds and bytes, they do no input or output");
   });
@@ -202,37 +214,52 @@ TEST(Layers, OnlyCommandsReadClocks) {
   for (const SourceFile& source : read_sources(code_folders, code_extensions))
     for (std::size_t i = 0; i < source.lines.size(); ++i)
       if (!may_read_clocks(source) && names_a_clock(source.lines[i]))
-        report(source, i, "names a clock; only *_main.cpp, rti/transport, loadgen, bench and tests may, all others are handed time");
+        report(source, i,
+               "names a clock; only *_main.cpp, rti/transport, loadgen, bench and tests may, all "
+               "others are handed time");
 }
 
 TEST(Layers, NoFileIncludesItselfThroughOthers) {
-  EXPECT_EQ(joined(circle_in(includes_between(read_sources(code_folders, code_extensions), [](const std::string& path) { return path; }))), "");
+  EXPECT_EQ(joined(circle_in(includes_between(read_sources(code_folders, code_extensions),
+                                              [](const std::string& path) { return path; }))),
+            "");
 }
 
 TEST(Layers, HeadersWithTheirSourcesFormNoCircleInIm) {
-  EXPECT_EQ(joined(circle_in(includes_between(read_sources({"im"}, code_extensions), component_of))), "");
+  EXPECT_EQ(
+      joined(circle_in(includes_between(read_sources({"im"}, code_extensions), component_of))), "");
 }
 
 TEST(LayersThemselves, SeeAClockBehindAnAliasToo) {
-  for (const char* line : {"using Clock = std::chrono::steady_clock;", "auto now = std::chrono::system_clock::now();", "  namespace c = std::chrono; c::steady_clock t;",
-                           "clock_gettime(CLOCK_MONOTONIC, &now);", "std::time(nullptr)", "seed(time(0));", "std::clock()"})
+  for (const char* line :
+       {"using Clock = std::chrono::steady_clock;", "auto now = std::chrono::system_clock::now();",
+        "  namespace c = std::chrono; c::steady_clock t;", "clock_gettime(CLOCK_MONOTONIC, &now);",
+        "std::time(nullptr)", "seed(time(0));", "std::clock()"})
     EXPECT_TRUE(names_a_clock(line)) << line;
-  for (const char* line : {"double time(const Body& body);", "server_clock.advance(now_s);", "Real BasicWorld<Real>::now() const", "body.time(0.5)"}) EXPECT_FALSE(names_a_clock(line)) << line;
+  for (const char* line : {"double time(const Body& body);", "server_clock.advance(now_s);",
+                           "Real BasicWorld<Real>::now() const", "body.time(0.5)"})
+    EXPECT_FALSE(names_a_clock(line)) << line;
 }
 
 TEST(LayersThemselves, KnowWhatIsImpure) {
-  for (const char* header : {"unistd.h", "sys/mman.h", "poll.h", "cstdio", "stdio.h", "mutex", "chrono", "asio.hpp", "sys/socket.h", "spdlog/spdlog.h"}) EXPECT_TRUE(is_impure(header)) << header;
-  for (const char* header : {"cmath", "vector", "immintrin.h", "Eigen/Core", "charconv", "system_error"}) EXPECT_FALSE(is_impure(header)) << header;
+  for (const char* header : {"unistd.h", "sys/mman.h", "poll.h", "cstdio", "stdio.h", "mutex",
+                             "chrono", "asio.hpp", "sys/socket.h", "spdlog/spdlog.h"})
+    EXPECT_TRUE(is_impure(header)) << header;
+  for (const char* header :
+       {"cmath", "vector", "immintrin.h", "Eigen/Core", "charconv", "system_error"})
+    EXPECT_FALSE(is_impure(header)) << header;
 }
 
 TEST(LayersThemselves, SeeCirclesOfAnyLength) {
   EXPECT_EQ(joined(circle_in({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}})), "");
   EXPECT_EQ(joined(circle_in({{"a", {"b"}}, {"b", {"a"}}})), "a, b, a");
-  EXPECT_EQ(joined(circle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d"}}, {"d", {"b"}}})), "b, c, d, b");
+  EXPECT_EQ(joined(circle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d"}}, {"d", {"b"}}})),
+            "b, c, d, b");
 }
 
 TEST(LayersThemselves, MissAFolderThatIsGone) {
-  EXPECT_NONFATAL_FAILURE(read_sources({"im/nowhere"}, code_extensions), "there is no folder im/nowhere to judge");
+  EXPECT_NONFATAL_FAILURE(read_sources({"im/nowhere"}, code_extensions),
+                          "there is no folder im/nowhere to judge");
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ inline SourceFile read_source(const std::filesystem::path& root, const std::file
   return source;
 }
 
-/// All files below `folders` whose extension is one of `extensions`, in the order of their paths. A folder that is missing fails the test: who moves it moves its
-/// rules too.
+/// All files below `folders` whose extension is one of `extensions`, in the order of their paths. A
+/// folder that is missing fails the test: who moves it moves its rules too.
 inline std::vector<SourceFile> read_sources(const std::vector<std::string>& folders, const std::vector<std::string>& extensions) {
   const std::filesystem::path root = test::source_folder();
   std::vector<SourceFile> sources;

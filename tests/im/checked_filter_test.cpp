@@ -88,7 +88,8 @@ std::vector<std::string> all_kinds() {
   return kinds;
 }
 
-INSTANTIATE_TEST_SUITE_P(Filter, Strangers, testing::ValuesIn(all_kinds()), [](const auto& info) { return test::words(info.param); });
+INSTANTIATE_TEST_SUITE_P(Filter, Strangers, testing::ValuesIn(all_kinds()),
+                         [](const auto& info) { return test::words(info.param); });
 
 TEST(FilterSettings, NeedAWorldWithAnAreaAndCellsWithASize) {
   const Region world{0.0, 0.0, 10.0, 10.0};

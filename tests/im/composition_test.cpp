@@ -189,5 +189,16 @@ TEST(Expression, MakesANameForFilesThatNoOtherMakes) {
   EXPECT_EQ(file_name_of("region"), "region");
 }
 
+/// Of more than 100 characters the first 83 are kept, and the 16 digits of the FNV-1a digest of all:
+/// here one that begins with a nought, by another program.
+TEST(Expression, ShortensALongNameForFilesToOneThatNoOtherMakes) {
+  std::string expression;
+  for (int i = 0; i < 10; ++i) expression += "region or ";
+  const std::string name = file_name_of(expression + "aura2400");
+  EXPECT_EQ(name, "region_or_region_or_region_or_region_or_region_or_region_or_region_or_region_or_reg-"
+                  "02d2f4dc37c09004");
+  EXPECT_NE(file_name_of(expression + "aura"), name);
+}
+
 }  // namespace
 }  // namespace rink::im

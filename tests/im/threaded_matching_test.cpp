@@ -133,7 +133,9 @@ TEST(ThreadedMatching, NobodyIsWokenForLittle) {
 }
 
 TEST(ThreadedMatching, ASecondCoreThatWasNeverNeededEnds) {
-  const auto thread_count = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}); };
+  const auto thread_count = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  };
   const auto before = thread_count();
   for (int i = 0; i < 50; ++i) {
     const rti::SecondCore idle;

@@ -52,9 +52,14 @@ velocity = [2.0, 0.0]
 struct ADuel {
   ADuel(const std::vector<std::string>& options, const std::string& scene = "match") {
     if (scene != "match") std::ofstream(folder / "short.toml") << scene;
-    host = std::make_unique<Process>(program("serve"), std::vector<std::string>{scene == "match" ? "match" : (folder / "short.toml").string(), "--port", "0", "--countdown", "0.2", "--record", records()}, std::vector<int>{});
+    host = std::make_unique<Process>(
+        program("serve"),
+        std::vector<std::string>{scene == "match" ? "match" : (folder / "short.toml").string(),
+                                 "--port", "0", "--countdown", "0.2", "--record", records()},
+        std::vector<int>{});
     std::optional<std::string> place;
-    for (int i = 0; i < 500 && !place; ++i) host->attend(10ms), place = host->line_after("listening on ");
+    for (int i = 0; i < 500 && !place; ++i)
+      host->attend(10ms), place = host->line_after("listening on ");
     std::vector<std::string> words{"--connect", place.value_or("")};
     words.insert(words.end(), options.begin(), options.end());
     duel = std::make_unique<Process>(program("duel"), words, std::vector<int>{});
@@ -68,8 +73,14 @@ struct ADuel {
     host->stop(5s);
     return duel->ending()->exit_status;
   }
-  KeyLog record(int number) const { return read_key_log(std::filesystem::path(records()) / ("match-" + std::to_string(number) + ".keys")); }
-  bool has_record(int number) const { return std::filesystem::exists(std::filesystem::path(records()) / ("match-" + std::to_string(number) + ".keys")); }
+  KeyLog record(int number) const {
+    return read_key_log(std::filesystem::path(records()) /
+                        ("match-" + std::to_string(number) + ".keys"));
+  }
+  bool has_record(int number) const {
+    return std::filesystem::exists(std::filesystem::path(records()) /
+                                   ("match-" + std::to_string(number) + ".keys"));
+  }
   /// What follows `name` in what was said of the left one.
   double told(const std::string& name) const {
     const std::string line = duel->line_after("left: ").value_or("");
@@ -104,7 +115,8 @@ TEST(DuelCommand, LeavesWhenItsTimeIsOver) {
 
 /// An answer is seen at the frame after it came.
 TEST(DuelCommand, DrawsAsManyFramesAsItIsAskedFor) {
-  ADuel slow({"--duration", "1.2", "--frame-rate", "10"}), quick({"--duration", "1.2", "--frame-rate", "200"});
+  ADuel slow({"--duration", "1.2", "--frame-rate", "10"}),
+      quick({"--duration", "1.2", "--frame-rate", "200"});
   EXPECT_EQ(slow.status(), 0) << slow.duel->last_words();
   EXPECT_EQ(quick.status(), 0) << quick.duel->last_words();
   EXPECT_GE(slow.told("ping"), 90.0);
@@ -125,7 +137,9 @@ std::vector<Key> first_keys(const KeyLog& log) {
 
 TEST(DuelCommand, PlaysByItsSeed) {
   std::vector<std::unique_ptr<ADuel>> duels;
-  for (const char* seed : {"3", "3", "4", "5", "6", "7"}) duels.push_back(std::make_unique<ADuel>(std::vector<std::string>{"--players", "waypoint", "--duration", "1", "--seed", seed}));
+  for (const char* seed : {"3", "3", "4", "5", "6", "7"})
+    duels.push_back(std::make_unique<ADuel>(
+        std::vector<std::string>{"--players", "waypoint", "--duration", "1", "--seed", seed}));
   std::vector<std::vector<Key>> keys;
   for (const auto& each : duels) {
     ASSERT_EQ(each->status(), 0) << each->duel->last_words();
@@ -133,7 +147,8 @@ TEST(DuelCommand, PlaysByItsSeed) {
     ASSERT_EQ(keys.back().size(), 2u);
   }
   EXPECT_EQ(keys[0], keys[1]);
-  EXPECT_GT(std::set<std::vector<Key>>(keys.begin(), keys.end()).size(), 1u) << "other seeds go elsewhere";
+  EXPECT_GT(std::set<std::vector<Key>>(keys.begin(), keys.end()).size(), 1u)
+      << "other seeds go elsewhere";
 }
 
 int status_of(const std::vector<std::string>& words, std::string& said) {
@@ -144,9 +159,16 @@ int status_of(const std::vector<std::string>& words, std::string& said) {
 }
 
 TEST(DuelCommand, NamesTheFlagThatIsWrongAndWhatIsAllowed) {
-  const std::vector<std::array<std::string, 3>> cases{{"--matches", "0", "from 1 to 1000"}, {"--matches", "1001", "from 1 to 1000"}, {"--duration", "-1", "is not a number from 0"},
-                                                     {"--duration", "nan", "is not a number from 0"}, {"--frame-rate", "9", "from 10 to 1000"}, {"--frame-rate", "1e9", "from 10 to 1000"},
-                                                     {"--players", "nobody", "waypoint"}, {"--seed", "x", "--seed"}, {"--connect", "nowhere", "ADDRESS:PORT"}};
+  const std::vector<std::array<std::string, 3>> cases{
+      {"--matches", "0", "from 1 to 1000"},
+      {"--matches", "1001", "from 1 to 1000"},
+      {"--duration", "-1", "is not a number from 0"},
+      {"--duration", "nan", "is not a number from 0"},
+      {"--frame-rate", "9", "from 10 to 1000"},
+      {"--frame-rate", "1e9", "from 10 to 1000"},
+      {"--players", "nobody", "waypoint"},
+      {"--seed", "x", "--seed"},
+      {"--connect", "nowhere", "ADDRESS:PORT"}};
   for (const auto& [flag, value, expected] : cases) {
     std::string said;
     EXPECT_EQ(status_of({flag, value}, said), 2) << flag << ' ' << value;

@@ -168,7 +168,8 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
 
 /// Its processes' threads, from the kernel.
 std::ptrdiff_t thread_count(const Process& process) {
-  return std::distance(std::filesystem::directory_iterator("/proc/" + std::to_string(process.id()) + "/task"), {});
+  return std::distance(
+      std::filesystem::directory_iterator("/proc/" + std::to_string(process.id()) + "/task"), {});
 }
 
 TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
@@ -177,21 +178,27 @@ TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
   for (const bool has_second_core : {false, true}) {
     const test::TemporaryFolder folder("second-core");
     const std::filesystem::path report = folder / "serve.json";
-    std::vector<std::string> flags{"--scene", "crowd", "--bat-count", "4", "--clients", "4", "--puck-count", "4000", "--scheme", "region", "--pace", "synchronous", "--port", "0",
-                                   "--duration", "0.5", "--report", report.string()};
+    std::vector<std::string> flags{
+        "--scene",      "crowd", "--bat-count", "4",      "--clients", "4",
+        "--puck-count", "4000",  "--scheme",    "region", "--pace",    "synchronous",
+        "--port",       "0",     "--duration",  "0.5",    "--report",  report.string()};
     if (has_second_core) flags.push_back("--second-core");
     Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
     const std::optional<std::string> place = place_of(server);
     ASSERT_TRUE(place) << server.last_words();
     threads.push_back(thread_count(server));
-    EXPECT_EQ(run("rink-bots", {"--connect", *place, "--count", "4", "--seed", "5", "--duration", "0.5"}).status, 0);
+    EXPECT_EQ(
+        run("rink-bots", {"--connect", *place, "--count", "4", "--seed", "5", "--duration", "0.5"})
+            .status,
+        0);
     for (int i = 0; i < 1000 && !server.ending(); ++i) server.attend(10ms);
     ASSERT_TRUE(server.ending());
     EXPECT_EQ(server.ending()->exit_status, 0) << server.last_words();
     reports.push_back(nlohmann::json::parse(std::ifstream(report)));
   }
   EXPECT_EQ(threads[1], threads[0] + 1);
-  for (const char* key : {"state_hash", "ticks", "scope_entries", "scope_exits", "state_bytes_sent", "filter_regions_moved", "filter_pairs_tested", "messages_sent"})
+  for (const char* key : {"state_hash", "ticks", "scope_entries", "scope_exits", "state_bytes_sent",
+                          "filter_regions_moved", "filter_pairs_tested", "messages_sent"})
     EXPECT_EQ(reports[0].at(key), reports[1].at(key)) << key;
   EXPECT_GT(reports[0].at("scope_exits"), 0);
 }
@@ -200,7 +207,10 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   const test::TemporaryFolder folder("listed");
   const std::string file = (folder / "listed.toml").string();
   const test::ReservedPort port;
-  std::ofstream(file) << "federation = \"listed\"\nfom = \"" + test::source_folder() + "/game/net/rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = \"127.0.0.1\"\nport = " + port.text() +
+  std::ofstream(file) << "federation = \"listed\"\nfom = \"" + test::source_folder() +
+                             "/game/net/rink.fom.xml\"\n[[node]]\nname = \"server\"\naddress = "
+                             "\"127.0.0.1\"\nport = " +
+                             port.text() +
                              "\n[[node]]\nname = \"Ada\"\n[[node]]\nname = \"Grace\"\n";
   const std::vector<std::string> flags{"--scene", "match", "--federation", file, "--duration", "0.3", "--rate", "60", "--patience"};
   const auto serve_for = [&](const std::string& patience_s) {
@@ -210,7 +220,8 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   };
   const auto first = serve_for("20");
   while (!first->line_after("listening on ") && !first->ending()) first->attend(10ms);
-  const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + port.text(), "--federation", "listed", "--duration", "0.2"});
+  const Ended stranger = run("rink-bots", {"--connect", "127.0.0.1:" + port.text(), "--federation",
+                                           "listed", "--duration", "0.2"});
   EXPECT_EQ(stranger.status, 14);
   EXPECT_THAT(stranger.words, HasSubstr("members are listed by name in its federation file, and this federate is none of them"));
   const Ended listed = run("rink-bots", {"--federation-file", file, "--count", "2", "--duration", "0.2"});
@@ -226,7 +237,8 @@ TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthe
   ASSERT_TRUE(second->ending());
   EXPECT_EQ(second->ending()->exit_status, 17);
   EXPECT_THAT(second->last_words(), HasSubstr("1 of 2 players came within 1 s; missing: Grace"));
-  EXPECT_THAT(run("rink-bots", {"--federation-file", file, "--count", "3"}).words, HasSubstr("lists 2"));
+  EXPECT_THAT(run("rink-bots", {"--federation-file", file, "--count", "3"}).words,
+              HasSubstr("lists 2"));
 }
 
 TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {

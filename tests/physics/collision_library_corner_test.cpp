@@ -70,7 +70,9 @@ void expect_shares(const Flights& flights) {
   EXPECT_EQ(flights.missed_hits, 0) << "the sharp box holds the rounded one";
 }
 
-TEST(SharpCorners, HitFalselyInTheShareOfThePerimetersDifference) { expect_shares(Flights(200000)); }
+TEST(SharpCorners, HitFalselyInTheShareOfThePerimetersDifference) {
+  expect_shares(Flights(200000));
+}
 
 TEST(SharpCorners, AreEarlyByUpToARadiusWithUpToARightAngleOfError) {
   const Flights flights(200000);
@@ -103,13 +105,16 @@ void expect_documented(const std::vector<double>& sorted, const std::string& nam
   std::printf("\n");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double last_digit = std::pow(10.0, std::floor(std::log10(expected[i])) - 1.0);
-    EXPECT_NEAR(quantile(sorted, parts[i]), expected[i], 0.6 * last_digit) << name << ", quantile " << parts[i];
+    EXPECT_NEAR(quantile(sorted, parts[i]), expected[i], 0.6 * last_digit)
+        << name << ", quantile " << parts[i];
   }
 }
 
 TEST(SharpCornersLong, ErrByTheDistributionInTheDocs) {
   const Flights flights(10000000);
-  std::printf("%d hits of the sharp box, %.4f of them false, %.4f true hits on a corner\n", flights.sharp_hits, share(flights.false_hits, flights), share(flights.corner_hits, flights));
+  std::printf("%d hits of the sharp box, %.4f of them false, %.4f true hits on a corner\n",
+              flights.sharp_hits, share(flights.false_hits, flights),
+              share(flights.corner_hits, flights));
   expect_shares(flights);
   expect_documented(flights.early, "early by, radii of flight");
   expect_documented(flights.turned, "normal off by, degrees");

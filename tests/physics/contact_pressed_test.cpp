@@ -182,7 +182,9 @@ TEST_P(Pressed, WholeRackIntoACorner) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Restitution, Pressed, testing::Values(0.0, 0.1, 0.5, 0.9, 1.0),
-                         [](const auto& restitution) { return "of_" + rink::test::words(restitution.param); });
+                         [](const auto& restitution) {
+                           return "of_" + rink::test::words(restitution.param);
+                         });
 
 }  // namespace
 }  // namespace rink::physics::test

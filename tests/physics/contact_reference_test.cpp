@@ -229,7 +229,9 @@ TEST_P(AgainstLagrange, SquirtsAndWedgesAreRightWithinTwoPercent) { expect_all_n
 TEST_P(AgainstLagrange, AFifthOfTheTimeScaleIsRightWithinHalfAPercent) { expect_near_truth(0.5, 0.5, 0.3, GetParam(), 1e-4, 0.005); }
 
 INSTANTIATE_TEST_SUITE_P(Restitution, AgainstLagrange, testing::Values(0.0, 0.5, 0.9, 1.0),
-                         [](const auto& restitution) { return "of_" + rink::test::words(restitution.param); });
+                         [](const auto& restitution) {
+                           return "of_" + rink::test::words(restitution.param);
+                         });
 
 /// Where impacts lose nothing, a light puck before the bat goes on bouncing on it at a few mm/s, faster than what comes to rest at this time scale.
 TEST(AgainstLagrangeLong, AFifthOfTheTimeScaleIsRightWithinHalfAPercentForAllMasses) {

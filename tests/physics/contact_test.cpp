@@ -150,7 +150,9 @@ TEST_P(PressedAtEveryRestitution, OpposedBatsHoldAPuckBetweenThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Restitution, PressedAtEveryRestitution, testing::Values(0.0, 0.5, 0.9),
-                         [](const auto& restitution) { return "of_" + rink::test::words(restitution.param); });
+                         [](const auto& restitution) {
+                           return "of_" + rink::test::words(restitution.param);
+                         });
 
 TEST(Collapse, ThreePucksOfAnyRestitutionSeparateInTime) {
   for (const double e : {0.0, 0.05, 0.2, 0.5, 0.9}) {
