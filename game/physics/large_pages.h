@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct LargePageAllocator {
   LargePageAllocator(const LargePageAllocator<Other>&) {}
 
   T* allocate(std::size_t count) {
+    // Beyond that the rounding up to a page would overflow; g++ -O3 says so at every array.
+    if (count > (std::numeric_limits<std::ptrdiff_t>::max() - page) / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     if (bytes < page) return static_cast<T*>(::operator new(bytes, alignment));
     void* memory = std::aligned_alloc(page, (bytes + page - 1) / page * page);
