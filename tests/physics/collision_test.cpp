@@ -149,6 +149,31 @@ TEST(Collision, BatKeepsToItsHalf) {
   EXPECT_NEAR(world.position(b).x(), 1.95 - (1.5 - 0.95), 1e-14);
 }
 
+TEST(Collision, HalfwayLineStopsBatsOfAHalfAndNobodyElse) {
+  WorldSpec spec = rink_of(4, 2);
+  for (const bool keep : {false, true}) {
+    spec.field.bats_keep_to_half = keep;
+    World world(spec);
+    const auto bat_of = [&](Half half, double x, double y, double vx) {
+      BatSpec bat;
+      bat.position = {x, y};
+      bat.velocity = {vx, 0};
+      bat.half = half;
+      return world.add(bat);
+    };
+    const BodyId left = bat_of(Half::left, 1, 0.25, 1), right = bat_of(Half::right, 3, 0.5, -1);
+    const BodyId both = bat_of(Half::both, 1, 0.75, 1), back = bat_of(Half::both, 3, 1, -1);
+    const BodyId puck = world.add(puck_at(1, 1.5, 1, 0));
+    world.advance(1.5);
+    EXPECT_NEAR(world.position(left).x(), keep ? 1.4 : 2.5, 1e-14);
+    EXPECT_NEAR(world.position(right).x(), keep ? 2.6 : 1.5, 1e-14);
+    EXPECT_NEAR(world.position(both).x(), 2.5, 1e-14);
+    EXPECT_NEAR(world.position(back).x(), 1.5, 1e-14);
+    EXPECT_NEAR(world.position(puck).x(), 2.5, 1e-14);
+    EXPECT_EQ(world.counters().wall_impacts, keep ? 2u : 0u);
+  }
+}
+
 TEST(Collision, ChainOfMassesCountsTheDigitsOfPi) {
   const std::uint64_t digits[] = {3, 31, 314, 3141};
   for (int n = 0; n <= 3; ++n) {

@@ -128,6 +128,20 @@ TEST(RestContact, LastsWhereDragsThatDifferNeverPull) {
   }
 }
 
+TEST(RestContact, EndsAtOnceWhereThrustPullsItApartByMoreThanRounding) {
+  for (const double pull : {0.5e-9, 2e-9, 1e-4}) {
+    SCOPED_TRACE(pull);
+    BatAndPuck scene(rink_of(8, 8, 0.5), 0, 0.0, {0.0, 0.0}, {0.0, 0.0});
+    scene.world.set_thrust(scene.bat, {6.0, 0.0});
+    scene.world.advance(0.125);
+    EXPECT_TRUE(scene.world.is_held(scene.puck));
+    scene.world.set_thrust(scene.bat, {-pull, 0.0});
+    scene.world.advance(0.25);
+    EXPECT_EQ(scene.world.is_held(scene.puck), pull < 1e-9);
+    EXPECT_EQ(scene.world.counters().releases, pull < 1e-9 ? 0u : 1u);
+  }
+}
+
 /// A puck on the face of a bat, `margin` [m] from its end, that slides towards the end at `outwards`.
 World pushed_near_the_end_of_a_face(double margin, double outwards, int axis, double side,
                                     double duration) {
