@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <sstream>
 
 namespace rink::rti {
 
@@ -22,6 +24,20 @@ constexpr std::array basic_types = {
 };
 /// Types of the standard whose size varies.
 constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLAopaqueData", "HLAtoken"};
+
+constexpr std::uint32_t count_size = 4;  ///< of the HLAinteger32BE that begins an HLAvariableArray
+
+/// The first multiple of `boundary` that is not before `at`.
+std::uint64_t at_boundary(std::uint64_t at, std::uint32_t boundary) {
+  return (at + boundary - 1) / boundary * boundary;
+}
+
+/// The first word of <encoding>; a model may describe one of its own in several.
+std::string encoding_of(const pugi::xml_node& node, const char* otherwise) {
+  std::istringstream text(node.child("encoding").text().get());
+  std::string name;
+  return text >> name ? name : otherwise;
+}
 
 }  // namespace
 
@@ -104,6 +120,9 @@ DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   return size;
 }
 
+/// As the standard lays arrays out: each element begins at a multiple of its octet boundary value,
+/// after the number of elements if the encoding has one; nothing lies behind the last. In an
+/// encoding of the model's own the elements stand side by side.
 DataTypes::Size DataTypes::size_of_array(const Node& node) {
   const std::string cardinality = text(node, "cardinality");
   const Size element = size_of(text(node, "dataType"), node);
@@ -113,19 +132,64 @@ DataTypes::Size DataTypes::size_of_array(const Node& node) {
   }
   if (cardinality.size() > 6) fail(node, path(node) + " has more than 999999 elements");
   if (!element) return std::nullopt;
-  const std::uint64_t size = std::stoull(cardinality) * *element;
+  const std::uint64_t count = std::stoull(cardinality);
+  const std::string encoding = encoding_of(node, "HLAfixedArray");
+  const bool is_counted = encoding == "HLAvariableArray";
+  const std::uint32_t boundary =
+      is_counted || encoding == "HLAfixedArray" ? boundary_of(text(node, "dataType"), node) : 1;
+  std::uint64_t size = is_counted ? count_size : 0;
+  if (count > 0)
+    size = at_boundary(size, boundary) + (count - 1) * at_boundary(*element, boundary) + *element;
   if (size > 1u << 20) fail(node, path(node) + " is longer than 1 MiB");
   return static_cast<std::uint32_t>(size);
 }
 
 DataTypes::Size DataTypes::size_of_record(const Node& node) {
-  Size size = 0;
+  std::uint64_t size = 0;
+  bool is_fixed = true;
   for (const Node& field : node.children("field")) {
     const Size part = size_of(text(field, "dataType"), field);
-    size = size && part ? Size(*size + *part) : std::nullopt;
+    is_fixed = is_fixed && part;
+    size += part.value_or(0);
   }
-  if (size && *size > 1u << 20) fail(node, path(node) + " is longer than 1 MiB");
-  return size;
+  if (!is_fixed) return std::nullopt;
+  for (const std::uint32_t padding : padding_of(node)) size += padding;
+  if (size > 1u << 20) fail(node, path(node) + " is longer than 1 MiB");
+  return static_cast<std::uint32_t>(size);
+}
+
+std::vector<std::uint32_t> DataTypes::padding_of(const Node& record) {
+  const bool is_aligned = encoding_of(record, "HLAfixedRecord") == "HLAfixedRecord";
+  std::vector<std::uint32_t> paddings;
+  std::uint64_t at = 0;
+  for (const Node& field : record.children("field")) {
+    const std::string type = text(field, "dataType");
+    const std::uint64_t begin = is_aligned ? at_boundary(at, boundary_of(type, field)) : at;
+    paddings.push_back(static_cast<std::uint32_t>(begin - at));
+    at = begin + size_of(type, field).value();
+  }
+  return paddings;
+}
+
+/// The octet boundary value of IEEE 1516.2-2010, 4.13, of a type of fixed size: of a basic type the
+/// least power of two that is not below its size, of records and arrays the greatest of what they
+/// hold.
+std::uint32_t DataTypes::boundary_of(const std::string& type, const Node& user) {
+  const auto found = declared_.find(type);
+  const Node node = found == declared_.end() ? Node() : found->second;
+  const std::string_view kind = node.name();
+  if (kind == "simpleData" || kind == "enumeratedData")
+    return boundary_of(text(node, "representation"), node);
+  if (kind == "arrayData") {
+    const std::uint32_t element = boundary_of(text(node, "dataType"), node);
+    return encoding_of(node, "HLAfixedArray") == "HLAvariableArray" ? std::max(count_size, element)
+                                                                    : element;
+  }
+  if (kind != "fixedRecordData") return std::bit_ceil(size_of(type, user).value());
+  std::uint32_t greatest = 1;
+  for (const Node& field : node.children("field"))
+    greatest = std::max(greatest, boundary_of(text(field, "dataType"), field));
+  return greatest;
 }
 
 }  // namespace rink::rti

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "rti/fom/fom_modules.h"
 
@@ -21,6 +22,9 @@ class DataTypes {
   void read();
   /// Of a declared type or one of the standard's; `user` is the element that names it.
   Size size_of(const std::string& type, const Node& user);
+  /// Bytes that lie before each field of a fixed record, beside the fields before it: those of the
+  /// encoding HLAfixedRecord, none in an encoding of the model's own. The record has a fixed size.
+  std::vector<std::uint32_t> padding_of(const Node& record);
   /// Those that nothing uses too: another module may.
   void check();
   const std::map<std::string, Node>& declared() const { return declared_; }
@@ -34,6 +38,7 @@ class DataTypes {
   void check_enumerators(const Node& node);
   Size size_of_array(const Node& node);
   Size size_of_record(const Node& node);
+  std::uint32_t boundary_of(const std::string& type, const Node& user);
 
   const FomModules& modules_;
   std::map<std::string, Node> declared_;

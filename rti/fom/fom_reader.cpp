@@ -171,8 +171,13 @@ void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   if (!attribute.size) return;
   try {
     const auto known = codecs_.find(attribute.data_type);
-    const auto size_of_type = [this](const std::string& type) { return types_.size_of(type, {}).value_or(0); };
-    const auto codec = known != codecs_.end() ? known->second : QuantisationReader::codec_of(attribute.data_type, types_.declared(), size_of_type);
+    const QuantisationReader::Layout layout{
+        [this](const std::string& type) { return types_.size_of(type, {}).value_or(0); },
+        [this](const Node& record) { return types_.padding_of(record); }};
+    const auto codec =
+        known != codecs_.end()
+            ? known->second
+            : QuantisationReader::codec_of(attribute.data_type, types_.declared(), layout);
     codecs_[attribute.data_type] = codec;
     attribute.codec = codec;
     if (codec && is_periodic && codec->is_all_quantised()) attribute.baselines = codec;

@@ -64,7 +64,8 @@ QuantisedField ranged_field(const Node& node) {
   QuantisedField field;
   const std::string_view representation = node.child("representation").text().get();
   for (const Representation& each : representations)
-    if (representation == each.name) field = {each.form, each.is_big_endian, each.size, {}, {}};
+    if (representation == each.name)
+      field = {.form = each.form, .is_big_endian = each.is_big_endian, .size = each.size};
   const std::string range = *note(node, "range");
   std::istringstream bounds(range), resolution(node.child("resolution").text().get());
   double low = 0.0, high = 0.0, step = 0.0;
@@ -80,25 +81,31 @@ QuantisedField ranged_field(const Node& node) {
 
 class Flattening {
  public:
-  Flattening(const Types& types, const QuantisationReader::SizeOf& size_of) : types_(types), size_of_(size_of) {}
+  Flattening(const Types& types, const QuantisationReader::Layout& layout)
+      : types_(types), layout_(layout) {}
 
-  /// Appends the fields of `type`, whose size is known and which thus does not contain itself.
-  void add(const std::string& type) {
+  /// Appends the fields of `type`, whose size is known and which thus does not contain itself, the
+  /// first of them behind `padding` bytes.
+  void add(const std::string& type, std::uint32_t padding) {
     const auto found = types_.find(type);
     const std::string_view kind = found == types_.end() ? "" : found->second.name();
-    if (kind == "fixedRecordData") return add_record(found->second);
+    if (kind == "fixedRecordData") return add_record(found->second, padding);
     if (kind == "simpleData" && note(found->second, "range")) fields.push_back(ranged_field(found->second));
-    else fields.push_back({Form::octets, false, size_of_(type), {}, {}});
+    else fields.push_back({.size = layout_.size_of(type)});
+    fields.back().padding = padding;
   }
 
   std::vector<QuantisedField> fields;
 
  private:
-  void add_record(const Node& record) {
+  void add_record(const Node& record, std::uint32_t outer_padding) {
     std::map<std::string, std::size_t> places;
+    auto padding = layout_.padding_of(record);
+    if (!padding.empty()) padding.front() += outer_padding;
+    auto before = padding.begin();
     for (const Node& field : record.children("field")) {
       places[field.child("name").text().get()] = fields.size();
-      add(field.child("dataType").text().get());
+      add(field.child("dataType").text().get(), *before++);
     }
     for (const Node& field : record.children("field")) {
       const std::optional<std::string> rated = note(field, "rate of");
@@ -112,14 +119,16 @@ class Flattening {
   }
 
   const Types& types_;
-  const QuantisationReader::SizeOf& size_of_;
+  const QuantisationReader::Layout& layout_;
 };
 
 }  // namespace
 
-std::shared_ptr<const QuantisedCodec> QuantisationReader::codec_of(const std::string& data_type, const Types& types, const SizeOf& size_of) {
-  Flattening flat(types, size_of);
-  flat.add(data_type);
+std::shared_ptr<const QuantisedCodec> QuantisationReader::codec_of(const std::string& data_type,
+                                                                   const Types& types,
+                                                                   const Layout& layout) {
+  Flattening flat(types, layout);
+  flat.add(data_type, 0);
   const auto has_grid = [](const QuantisedField& field) { return field.grid.has_value(); };
   if (flat.fields.size() > QuantisedCodec::field_max || std::ranges::none_of(flat.fields, has_grid)) return nullptr;
   return std::make_shared<QuantisedCodec>(std::move(flat.fields));

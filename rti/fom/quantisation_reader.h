@@ -23,9 +23,15 @@ struct QuantisationError {
 class QuantisationReader {
  public:
   using Types = std::map<std::string, pugi::xml_node>;
-  using SizeOf = std::function<std::uint32_t(const std::string& data_type)>;  ///< bytes of a type of fixed size
+  /// How values of fixed size lie in memory.
+  struct Layout {
+    std::function<std::uint32_t(const std::string& data_type)> size_of;  ///< [bytes]
+    /// Before each field [bytes].
+    std::function<std::vector<std::uint32_t>(const pugi::xml_node& record)> padding_of;
+  };
   /// Of a type of fixed size; null if every bit of its values travels. Throws QuantisationError.
-  static std::shared_ptr<const QuantisedCodec> codec_of(const std::string& data_type, const Types& types, const SizeOf& size_of);
+  static std::shared_ptr<const QuantisedCodec> codec_of(const std::string& data_type,
+                                                        const Types& types, const Layout& layout);
 };
 
 }  // namespace rink::rti

@@ -48,6 +48,17 @@ void append(const QuantisedField& field, double number, std::vector<std::byte>& 
   assert(false && "octets have no grid");
 }
 
+/// Takes the field's bytes off the front of the value.
+Bytes take(const QuantisedField& field, Bytes& value) {
+  const Bytes found = value.subspan(field.padding, field.size);
+  value = value.subspan(field.padding + field.size);
+  return found;
+}
+
+void append_padding(const QuantisedField& field, std::vector<std::byte>& value) {
+  value.resize(value.size() + field.padding);
+}
+
 void write_octets(BitWriter& bits, Bytes octets) {
   for (const std::byte octet : octets) bits.bits(octet, 8);
 }
@@ -63,7 +74,7 @@ bool read_octets(BitReader& bits, std::size_t size, std::vector<std::byte>& valu
 QuantisedCodec::QuantisedCodec(std::vector<QuantisedField> fields) : fields_(std::move(fields)) {
   assert(fields_.size() <= field_max);
   for (const QuantisedField& field : fields_) {
-    value_size_ += field.size;
+    fields_size_ += field.size;
     packed_bits_ += field.grid ? field.grid->bits : 8 * field.size;
     is_all_quantised_ = is_all_quantised_ && field.grid.has_value();
   }
@@ -80,14 +91,15 @@ std::string QuantisedCodec::name() const {
     add(field.is_big_endian ? 'b' : 'l', field.size);
     if (field.grid) add(':', std::ilogb(field.grid->step)), add(':', field.grid->first), add(':', static_cast<std::int64_t>(field.grid->last));
     if (field.rate_of) add('@', *field.rate_of);
+    if (field.padding != 0) add('+', field.padding);
   }
   return text;
 }
 
 bool QuantisedCodec::is_in_range(Bytes value) const {
   for (const QuantisedField& field : fields_) {
-    if (field.grid && !field.grid->contains(load(field, value))) return false;
-    value = value.subspan(field.size);
+    const Bytes own = take(field, value);
+    if (field.grid && !field.grid->contains(load(field, own))) return false;
   }
   return true;
 }
@@ -96,11 +108,10 @@ void QuantisedCodec::encode(Bytes value, double, std::vector<std::byte>& coded) 
   BitWriter bits(coded);
   const bool is_full = !is_in_range(value);
   bits.flag(is_full);
-  if (is_full) return write_octets(bits, value);
   for (const QuantisedField& field : fields_) {
-    if (field.grid) bits.quantised(load(field, value), *field.grid);
-    else write_octets(bits, value.first(field.size));
-    value = value.subspan(field.size);
+    const Bytes own = take(field, value);
+    if (field.grid && !is_full) bits.quantised(load(field, own), *field.grid);
+    else write_octets(bits, own);
   }
 }
 
@@ -122,12 +133,21 @@ bool QuantisedCodec::is_sound(BitReader bits) const {
   return bits.finish();
 }
 
+bool QuantisedCodec::read_in_full(BitReader& bits, std::vector<std::byte>& value) const {
+  for (const QuantisedField& field : fields_) {
+    append_padding(field, value);
+    if (!read_octets(bits, field.size, value)) return false;
+  }
+  return true;
+}
+
 bool QuantisedCodec::decode(BitReader& bits, std::vector<std::byte>& value) const {
   bool is_full = false;
   if (!bits.flag(is_full)) return false;
-  if (is_full) return read_octets(bits, value_size_, value);
+  if (is_full) return read_in_full(bits, value);
   for (const QuantisedField& field : fields_) {
     double number = 0.0;
+    append_padding(field, value);
     if (!(field.grid ? bits.quantised(number, *field.grid) : read_octets(bits, field.size, value))) return false;
     if (field.grid) append(field, number, value);
   }
@@ -142,7 +162,8 @@ bool QuantisedCodec::decode(Bytes coded, double, std::vector<std::byte>& value) 
 std::optional<bool> QuantisedCodec::decode(BitReader& bits, Counts& counts, std::vector<std::byte>& value) const {
   assert(is_all_quantised_);
   bool is_full = false;
-  if (!bits.flag(is_full) || !(is_full ? read_octets(bits, value_size_, value) : exchange_counts(bits, counts))) return std::nullopt;
+  if (!bits.flag(is_full) || !(is_full ? read_in_full(bits, value) : exchange_counts(bits, counts)))
+    return std::nullopt;
   if (!is_full) append_value(counts, value);
   return !is_full;
 }
@@ -155,7 +176,10 @@ bool QuantisedCodec::read_counts(Bytes coded, Counts& counts) const {
 }
 
 void QuantisedCodec::append_value(const Counts& counts, std::vector<std::byte>& value) const {
-  for (std::size_t i = 0; i < fields_.size(); ++i) append(fields_[i], fields_[i].grid->value(static_cast<std::uint64_t>(counts[i])), value);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    append_padding(fields_[i], value);
+    append(fields_[i], fields_[i].grid->value(static_cast<std::uint64_t>(counts[i])), value);
+  }
 }
 
 }  // namespace rink::rti

@@ -18,13 +18,16 @@ struct QuantisedField {
   enum class Form : std::uint8_t { octets, float32, float64, integer16, integer32 };
   Form form = Form::octets;
   bool is_big_endian = false;
-  std::uint32_t size = 0;                ///< of the uncoded field [bytes]
-  std::optional<Quantisation> grid;      ///< nothing: every bit of it travels
-  std::optional<std::uint32_t> rate_of;  ///< the field whose change per second this one is
+  std::uint32_t size = 0;                  ///< of the uncoded field [bytes]
+  std::optional<Quantisation> grid{};      ///< nothing: every bit of it travels
+  std::optional<std::uint32_t> rate_of{};  ///< the field whose change per second this one is
+  std::uint32_t padding = 0;  ///< between the field before it and this one [bytes]; read as zeros
 };
 
-/// Codes records by rounding each field to its grid: |decoded - value| <= half a step <= half the resolution that the object model states. A value with a field out of its
-/// range (or not a number) travels in full, every bit of it. Bits: 0 and the fields' counts, or 1 and the value's bytes; zeros fill the last byte up (docs/wire.md).
+/// Codes records by rounding each field to its grid: |decoded - value| <= half a step <= half the
+/// resolution that the object model states. A value with a field out of its range (or not a number)
+/// travels in full, every bit of it. Bits: 0 and the fields' counts, or 1 and the fields' bytes,
+/// padding left out; zeros fill the last byte up (docs/wire.md).
 class QuantisedCodec : public AttributeCodec {
  public:
   static constexpr std::size_t field_max = 32;
@@ -40,7 +43,9 @@ class QuantisedCodec : public AttributeCodec {
   /// Bits of a value whose fields are in range, with the first one that says so.
   std::size_t packed_bits() const { return packed_bits_; }
   /// Bits of the coded value that starts with `is_full`.
-  std::size_t coded_bits(bool is_full) const { return is_full ? 1 + 8 * value_size_ : packed_bits_; }
+  std::size_t coded_bits(bool is_full) const {
+    return is_full ? 1 + 8 * fields_size_ : packed_bits_;
+  }
 
   /// The counts of a coded value of a record that `is_all_quantised`; false if it travels in full. `coded` must have its size.
   bool read_counts(Bytes coded, Counts& counts) const;
@@ -65,10 +70,11 @@ class QuantisedCodec : public AttributeCodec {
  private:
   bool is_in_range(Bytes value) const;
   bool decode(BitReader& reader, std::vector<std::byte>& value) const;
+  bool read_in_full(BitReader& reader, std::vector<std::byte>& value) const;
   bool is_sound(BitReader reader) const;
 
   std::vector<QuantisedField> fields_;
-  std::size_t value_size_ = 0, packed_bits_ = 1;
+  std::size_t fields_size_ = 0, packed_bits_ = 1;  ///< padding left out [bytes, bits]
   bool is_all_quantised_ = true;
 };
 

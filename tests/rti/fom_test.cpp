@@ -38,6 +38,145 @@ TEST(Fom, ValuesTakeTheSumOfTheirTypesOrVary) {
   EXPECT_EQ(harbour().value(ferry, AttributeSet{speed, destination}, destination, values).size(), town.size());
 }
 
+/// A model whose only attribute is of type Value, which `types` declare.
+Fom model_with(const std::string& types) {
+  return Fom::parse(
+      "<objectModel><modelIdentification><name>Types</name></"
+      "modelIdentification><objects><objectClass><name>HLAobjectRoot</"
+      "name><objectClass><name>Thing</name>"
+      "<attribute><name>value</name><dataType>Value</dataType></attribute></objectClass></"
+      "objectClass></objects><dataTypes>" +
+          types +
+          "</dataTypes>"
+          "<notes><note><label>small</label><semantics>range 0 "
+          "255</semantics></note></notes></objectModel>",
+      "types.xml");
+}
+std::string record(const std::string& name, const std::vector<std::string>& fields,
+                   const std::string& encoding = "") {
+  std::string text = "<fixedRecordData><name>" + name + "</name>" +
+                     (encoding.empty() ? "" : "<encoding>" + encoding + "</encoding>");
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    text += "<field><name>f" + std::to_string(i) + "</name><dataType>" + fields[i] +
+            "</dataType></field>";
+  return text + "</fixedRecordData>";
+}
+std::string records(const std::string& all) {
+  return "<fixedRecordDataTypes>" + all + "</fixedRecordDataTypes>";
+}
+std::string array(const std::string& name, const std::string& element,
+                  const std::string& cardinality, const std::string& encoding = "") {
+  return "<arrayDataTypes><arrayData><name>" + name + "</name><dataType>" + element +
+         "</dataType><cardinality>" + cardinality + "</cardinality>" +
+         (encoding.empty() ? "" : "<encoding>" + encoding + "</encoding>") +
+         "</arrayData></arrayDataTypes>";
+}
+std::optional<std::uint32_t> value_size(const std::string& types) {
+  const Fom fom = model_with(types);
+  return fom.values_size(*fom.object_class("Thing"), AttributeSet{AttributeHandle{0}});
+}
+
+TEST(Fom, FieldsOfARecordBeginAtTheirOctetBoundariesAndNothingLiesBehindTheLast) {
+  // IEEE 1516.2-2010, 4.13.9: P bytes after a field so that (offset + size + P) mod V = 0, V being
+  // the next field's octet boundary value.
+  EXPECT_EQ(value_size(records(
+                record("Value", {"HLAoctet", "HLAfloat64BE", "HLAoctet"}, "HLAfixedRecord"))),
+            1u + 7 + 8 + 1);
+  EXPECT_EQ(value_size(records(record("Value", {"HLAoctet", "HLAfloat64BE", "HLAoctet"}))), 17u)
+      << "HLAfixedRecord where the model says nothing";
+  EXPECT_EQ(value_size(records(
+                record("Value", {"HLAoctet", "HLAinteger16BE", "HLAoctet", "HLAinteger32LE"}))),
+            1u + 1 + 2 + 1 + 3 + 4);
+  EXPECT_EQ(value_size(records(record("Value", {"HLAfloat64LE", "HLAoctet"}))), 9u);
+  EXPECT_EQ(value_size(records(record("Value", {"HLAoctet", "HLAboolean"}))), 1u + 3 + 4)
+      << "an HLAboolean is an HLAinteger32BE";
+  EXPECT_EQ(value_size(records(record("Value", {"HLAoctet", "HLAunicodeChar"}))), 1u + 1 + 2);
+}
+
+TEST(Fom, ARecordsBoundaryIsTheGreatestOfItsFields) {
+  const std::string inner = record(
+      "Inner", {"HLAoctet", "HLAinteger32BE", "HLAoctet"});  // 1 + 3 + 4 + 1, at multiples of 4
+  EXPECT_EQ(value_size(records(inner + record("Value", {"HLAinteger16BE", "Inner", "Inner"}))),
+            2u + 2 + 9 + 3 + 9);
+  EXPECT_EQ(value_size(records(inner + record("Value", {"HLAoctet", "Inner", "HLAfloat64BE"}))),
+            1u + 3 + 9 + 3 + 8);
+}
+
+TEST(Fom, SimpleAndEnumeratedTypesHaveTheBoundaryOfWhatRepresentsThem) {
+  const std::string basic =
+      "<basicDataRepresentations><basicData><name>Triple</name><size>24</size></basicData></"
+      "basicDataRepresentations>";  // 3 bytes at multiples of 4: 8 * 2^2 >= 24
+  const std::string others =
+      "<simpleDataTypes><simpleData><name>Weight</name><representation>Triple</representation></"
+      "simpleData></simpleDataTypes>"
+      "<enumeratedDataTypes><enumeratedData><name>Colour</name><representation>HLAinteger16LE</"
+      "representation></enumeratedData></enumeratedDataTypes>";
+  EXPECT_EQ(value_size(basic + others +
+                       records(record("Value", {"HLAoctet", "Weight", "HLAoctet", "Colour"}))),
+            1u + 3 + 3 + 1 + 2);
+}
+
+TEST(Fom, ElementsOfAnArrayBeginAtTheirOctetBoundaries) {
+  const std::string place =
+      records(record("Place", {"HLAfloat64BE", "HLAoctet"}));  // 9 bytes at multiples of 8
+  EXPECT_EQ(value_size(place + array("Value", "Place", "3", "HLAfixedArray")), 2u * (9 + 7) + 9);
+  EXPECT_EQ(value_size(place + array("Value", "Place", "3")), 41u);
+  EXPECT_EQ(value_size(array("Value", "HLAoctet", "5", "HLAfixedArray")), 5u);
+  EXPECT_EQ(value_size(place + array("Value", "Place", "0", "HLAfixedArray")), 0u);
+  // 4.13.9.4: behind the number of elements, an HLAinteger32BE, the first element begins at a
+  // multiple of its boundary.
+  EXPECT_EQ(value_size(place + array("Value", "Place", "3", "HLAvariableArray")),
+            4u + 4 + 2 * (9 + 7) + 9);
+  EXPECT_EQ(value_size(array("Value", "HLAoctet", "5", "HLAvariableArray")), 4u + 5);
+  EXPECT_EQ(value_size(array("Value", "HLAoctet", "Dynamic", "HLAvariableArray")), std::nullopt)
+      << "its length travels";
+  const std::string row = array("Row", "HLAinteger16BE", "3"),
+                    list = array("List", "HLAoctet", "2", "HLAvariableArray");
+  EXPECT_EQ(value_size(row + records(record("Value", {"HLAoctet", "Row"}))), 1u + 1 + 6)
+      << "an array has the boundary of its elements";
+  EXPECT_EQ(value_size(list + records(record("Value", {"HLAoctet", "List"}))), 1u + 3 + 4 + 2)
+      << "or at least that of its count";
+}
+
+TEST(Fom, AnEncodingOfTheModelsOwnLaysFieldsSideBySide) {
+  EXPECT_EQ(value_size(records(record("Value", {"HLAoctet", "HLAfloat64BE", "HLAoctet"},
+                                      "packed, as our devices write it"))),
+            10u);
+  EXPECT_EQ(value_size(records(record("Place", {"HLAfloat64BE", "HLAoctet"})) +
+                       array("Value", "Place", "3", "packed")),
+            27u);
+}
+
+TEST(Fom, PaddingDoesNotTravelWithQuantisedValues) {
+  const std::string small =
+      "<simpleDataTypes><simpleData "
+      "notes=\"small\"><name>Small</name><representation>HLAfloat32LE</"
+      "representation><resolution>1</resolution></simpleData></simpleDataTypes>";
+  const Fom fom = model_with(small + records(record("Inner", {"Small", "HLAoctet"}) +
+                                             record("Value", {"HLAoctet", "Inner", "Small"})));
+  const Attribute& value = fom.at(*fom.object_class("Thing")).attributes[0];
+  ASSERT_TRUE(value.codec);
+  EXPECT_EQ(value.size, 1u + 3 + 4 + 1 + 3 + 4);
+  for (const auto& [second, bits] :
+       {std::pair{200.0f, 1 + 8 + 8 + 8 + 8},
+        std::pair{300.0f,
+                  1 + 8 + 32 + 8 + 32}}) {  // 300 is out of its range: all bits of all fields
+    std::vector<std::byte> plain, coded, decoded;
+    const auto add = [&plain](const auto& part) {
+      const auto bytes = values_of(part);
+      plain.insert(plain.end(), bytes.begin(), bytes.end());
+    };
+    add(std::uint8_t{7}), plain.resize(4), add(second), add(std::uint8_t{9}), plain.resize(12),
+        add(42.0f);
+    value.codec->encode(plain, 0.0, coded);
+    EXPECT_EQ(coded.size(), (static_cast<unsigned>(bits) + 7u) / 8u);
+    EXPECT_EQ(value.codec->size(coded), coded.size());
+    ASSERT_TRUE(value.codec->decode(coded, 0.0, decoded));
+    EXPECT_EQ(decoded, plain);
+  }
+  EXPECT_EQ(value.codec->name(), "rink-quantised-1 0l1 1l4:0:0:255+3 0l1 1l4:0:0:255+3");
+}
+
 TEST(Fom, HashTellsModelsApartButNotTheirComments) {
   std::string commented = harbour_xml, renamed = harbour_xml;
   commented.insert(commented.find("<objects>"), "<!-- ships -->\n\n");

@@ -27,6 +27,8 @@ class Model:
         root = ElementTree.parse(path).getroot()
         for element in root.iter():
             element.tag = element.tag.split("}")[-1]
+        self.codecs = parts.SHIPPED_CODECS.get(root.findtext("modelIdentification/name"), [])
+        self.switches = parts.switches(root)
         self.types = {}
         for kind in root.iter("dataTypes"):
             for group in kind:
@@ -36,7 +38,7 @@ class Model:
         self.dimensions = [(each.findtext("name"), int(each.findtext("upperBound") or 0)) for outer in root.iter("dimensions") for each in outer.findall("dimension") if len(each)]
         self.objects, self.interactions = [], []
         self.periodic = []  # by object class: the attribute that is told by baselines, and its type
-        self.object_lines, self.interaction_lines = [], []
+        self.object_lines, self.interaction_lines, self.root = [], [], root
         for outer in root.iter("objects"):
             self.add(outer, "objectClass", "attribute", self.objects, [], self.object_lines, [], ALL_ONES)
         for outer in root.iter("interactions"):
@@ -74,10 +76,9 @@ class Model:
             lines += ["dimension " + name, str(upper)]
         lines += parts.codec_lines(self, {data_type for _, members in self.objects for _, data_type in members})
         lines += ["baselines %s %s" % (name, periodic[0]) for (name, _), periodic in zip(self.objects, self.periodic) if periodic is not None]
-        value = 0xCBF29CE484222325
-        for byte in "".join(line + "\n" for line in lines).encode():
-            value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
-        return value
+        lines += ["switches " + self.switches] if self.switches else []
+        lines += ["codec %s %s" % codec for codec in self.codecs]
+        return parts.fnv1a("".join(line + "\n" for line in lines), 64)
 
     def size(self, name):
         """Bytes of a value; None if that varies."""
@@ -91,22 +92,53 @@ class Model:
         if declared.findtext("representation"):
             return self.size(declared.findtext("representation"))
         if declared.tag == "arrayData":
-            count, element = declared.findtext("cardinality"), self.size(declared.findtext("dataType"))
-            return int(count) * element if count and count.isdigit() and element is not None else None
+            count, element, encoding = declared.findtext("cardinality"), self.size(declared.findtext("dataType")), parts.encoding(declared, "HLAfixedArray")
+            if not (count and count.isdigit()) or element is None:
+                return None
+            boundary = self.boundary(declared.findtext("dataType")) if encoding in ("HLAfixedArray", "HLAvariableArray") else 1
+            at = 4 if encoding == "HLAvariableArray" else 0
+            for _ in range(int(count)):
+                at += -at % boundary + element
+            return at
         if declared.tag == "fixedRecordData":
             sizes = [self.size(field.findtext("dataType")) for field in declared.findall("field")]
-            return None if None in sizes else sum(sizes)
+            return None if None in sizes else sum(sizes) + sum(self.paddings(declared))
         return None
 
+    def boundary(self, name):
+        """The octet boundary value of a type of fixed size."""
+        declared = self.types.get(name)
+        if declared is not None and declared.findtext("representation"):
+            return self.boundary(declared.findtext("representation"))
+        if declared is not None and declared.tag == "arrayData":
+            least = 4 if parts.encoding(declared, "HLAfixedArray") == "HLAvariableArray" else 1
+            return max(least, self.boundary(declared.findtext("dataType")))
+        if declared is not None and declared.tag == "fixedRecordData":
+            return max([self.boundary(field.findtext("dataType")) for field in declared.findall("field")], default=1)
+        return 1 << (self.size(name) - 1).bit_length()
+
+    def paddings(self, record):
+        """Bytes before each field of a record."""
+        paddings, at = [], 0
+        for field in record.findall("field"):
+            name = field.findtext("dataType")
+            paddings.append(-at % self.boundary(name) if parts.encoding(record, "HLAfixedRecord") == "HLAfixedRecord" else 0)
+            at += paddings[-1] + self.size(name)
+        return paddings
+
     def fields(self, name):
-        """Records laid flat: (struct format or None, size, grid) of each field; grid is (step, first k, last k) or None."""
+        """Records laid flat: (struct format or None, size, grid, padding) of each field; grid is (step, first k, last k) or None, padding the bytes before it."""
         declared = self.types.get(name)
         if declared is not None and declared.tag == "fixedRecordData":
-            return [part for field in declared.findall("field") for part in self.fields(field.findtext("dataType"))]
+            flat = []
+            for field, padding in zip(declared.findall("field"), self.paddings(declared)):
+                inner = self.fields(field.findtext("dataType"))
+                flat += [inner[0][:3] + (inner[0][3] + padding,)] + inner[1:]
+            return flat
         form = declared.findtext("representation") if declared is not None and declared.findtext("representation") else name
         number, order = form[:-2], form[-2:]
         code = {"LE": "<", "BE": ">"}.get(order, "<") + NUMBER_FORMS[number] if number in NUMBER_FORMS else None
-        return [(code, self.size(name), self.grid(declared) if declared is not None and declared.tag == "simpleData" else None)]
+        return [(code, self.size(name), self.grid(declared) if declared is not None and declared.tag == "simpleData" else None, 0)]
 
     def forms(self, name):
         """The representation of each field."""
@@ -213,17 +245,21 @@ class Reader:
         return "%016x %d" % (struct.unpack("<Q", time)[0], struct.unpack("<Q", tag)[0])
 
     def value(self, name):
-        """As it lies in memory, decoded if it travels in the quantised form."""
+        """As it lies in memory, decoded if it travels in a form of its own."""
         size = self.model.size(name)
+        codec = dict(self.model.codecs).get(name)
+        if codec is not None:
+            return parts.CODECS[codec](self, Bits)
         if size is None:
             length = self.take(4)
             return length + self.take(struct.unpack("<I", length)[0])
         fields = self.model.fields(name)
-        if all(grid is None for _, _, grid in fields):
+        if all(grid is None for _, _, grid, _ in fields):
             return self.take(size)
         bits = Bits(self.data[self.at:])
         is_full, value = bits.number(1), b""
-        for code, field_size, grid in fields:
+        for code, field_size, grid, padding in fields:
+            value += bytes(padding)
             if is_full or grid is None:
                 value += bytes(bits.number(8) for _ in range(field_size))
                 continue
@@ -312,8 +348,12 @@ class Reader:
     def join(self):
         assert self.u32() == 0x4B4E4952
         version, hash_of_model = self.u16(), self.u64()
-        assert hash_of_model == self.model.hash(), "the page's hash of this model is %016x, not %016x" % (self.model.hash(), hash_of_model)
-        return ["join version %d model %016x %s %s %s" % (version, hash_of_model, self.text(), self.text(), self.text())]
+        whose = "model" if hash_of_model == self.model.hash() else "another model, for the page's hash of this one is %016x:" % self.model.hash()
+        return ["join version %d %s %016x %s %s %s" % (version, whose, hash_of_model, self.text(), self.text(), self.text())]
+
+    def digest(self):
+        told = [(self.u32(), self.u32()) for _ in range(self.u16())]
+        return ["digest of %d elements of %s model" % (len(told), "this" if told == parts.digest(self.model) else "another")]
 
     def passive(self):
         return ("active", "passive")[self.u8()]
@@ -436,7 +476,7 @@ DOWN = {
     111: lambda r: parts.deltas(r, Bits),
     118: lambda r: r.connection.admission.challenge(r),
     119: lambda r: r.connection.admission.proof(r, 2),
-    112: lambda r: ["digest " + " ".join("%08x:%08x" % (r.u32(), r.u32()) for _ in range(r.u16()))],
+    112: Reader.digest,
     107: lambda r: ["transportation %s %s %d %d %d" % (("object", "interaction")[r.u8()], ("answer", "confirmation")[r.u8()], r.varint(), r.varint(), r.u8())],
     113: lambda r: ["provide %d %s %s" % (r.varint(), r.bits(), r.short_bytes())],
 }

@@ -1,11 +1,137 @@
-"""What the second reader knows beyond plain messages, by docs/wire.md alone: baselines, admission, and datagrams over UDP. Python's standard library only."""
+"""What the second reader knows beyond plain messages, by docs/wire.md alone: the codecs of the shipped model, the digest, baselines, admission, and datagrams over UDP. Python's standard library only."""
 import hashlib
+import math
 import struct
 
 ALL_ONES = 0xFFFFFFFF
 FORMS = {"HLAfloat32": 1, "HLAfloat64": 2, "HLAinteger16": 3, "HLAinteger32": 4}
 GREETING = 0x47444B52
 DATAGRAM_MAX = 1200
+
+
+def fnv1a(text, bits):
+    value, prime = {64: (0xCBF29CE484222325, 0x100000001B3), 32: (0x811C9DC5, 0x01000193)}[bits]
+    for byte in text.encode():
+        value = (value ^ byte) * prime % 2**bits
+    return value
+
+
+# The model
+
+SWITCHES = (("autoProvide", "0"), ("attributeScopeAdvisory", "1"), ("attributeRelevanceAdvisory", "0"), ("objectClassRelevanceAdvisory", "1"), ("interactionRelevanceAdvisory", "1"))
+RESIGN_ACTIONS = ("UnconditionallyDivestAttributes", "DeleteObjects", "CancelPendingOwnershipAcquisitions", "DeleteObjectsThenDivest", "CancelThenDeleteThenDivest", "NoAction")
+
+
+def switches(root):
+    """As in the hash and the digest; empty if all are as they are without a table."""
+    values, action = dict(SWITCHES), "4"
+    for each in (each for table in root.iter("switches") for each in table):
+        if each.tag in values:
+            values[each.tag] = "1" if each.get("isEnabled") == "true" else "0"
+        if each.tag == "automaticResignAction":
+            action = str(RESIGN_ACTIONS.index(each.get("resignAction")))
+    text = "".join(values[name] for name, _ in SWITCHES) + action
+    return text if text != "".join(default for _, default in SWITCHES) + "4" else ""
+
+
+def encoding(declared, otherwise):
+    return ((declared.findtext("encoding") or "").split() or [otherwise])[0]
+
+
+def codec_of(model, data_type):
+    """The name of the codec of an attribute's data type, or nothing."""
+    quantised = [line.split(" ", 2)[2] for line in codec_lines(model, {data_type})]
+    return dict(model.codecs).get(data_type) or "".join(quantised)
+
+
+def digest(model):
+    """What a refused federate is sent of the federation's model."""
+    elements = []
+
+    def travel(element):
+        names = sorted(each.text for each in element.findall("dimensions/dimension"))
+        return " %d %d" % (element.findtext("transportation") == "HLAbestEffort", element.findtext("order") == "TimeStamp") + "".join(" " + name for name in names)
+
+    def add(outer, tag, member, word, path, periodic):
+        for element in outer.findall(tag):
+            name = ".".join(path + [element.findtext("name")])
+            whose, told = "%s '%s'" % (word, name), periodic
+            elements.append((whose, "" if member == "attribute" else travel(element)))
+            for each in element.findall(member):
+                data_type, size = each.findtext("dataType"), model.size(each.findtext("dataType"))
+                content = "%s %d" % (data_type, ALL_ONES if size is None else size)
+                if member == "attribute":
+                    is_baselined = not told and each.findtext("updateType") == "Periodic" and is_quantised_throughout(model, data_type)
+                    told = told or is_baselined
+                    content += travel(each) + codec_of(model, data_type) + (" baselines" if is_baselined else "")
+                elements.append(("%s '%s' of %s" % (member, each.findtext("name"), whose), content))
+            add(element, tag, member, word, path + [element.findtext("name")], told)
+
+    for outer in model.root.iter("objects"):
+        add(outer, "objectClass", "attribute", "object class", [], False)
+    for outer in model.root.iter("interactions"):
+        add(outer, "interactionClass", "parameter", "interaction class", [], False)
+    elements += [("dimension '%s'" % name, " %d" % upper) for name, upper in model.dimensions]
+    elements += [("the table of switches", model.switches)] if model.switches else []
+    return [(fnv1a(name, 32), fnv1a(content, 32)) for name, content in elements]
+
+
+# The codecs of the shipped model
+
+def twos_complement(bits, count):
+    number = bits.number(count)
+    return number - (number >> count - 1 << count)
+
+
+def grid_pair(bits, count, middle=0.0):
+    return [twos_complement(bits, count) * 2.0**-11 + middle for _ in "xy"]
+
+
+def trajectory_time(bits, stamp):
+    """The latest instant with the eight bits that is at most half a second after the stamp."""
+    (now,) = struct.unpack("<d", struct.pack("<Q", int(stamp.split()[0], 16)))
+    latest, residue = math.floor((now + 0.5) * 16), bits.number(8)
+    return (latest - (latest - residue) % 256) / 16.0
+
+
+def trajectory(reader, new_bits):
+    """rink-trajectory-2."""
+    bits = new_bits(reader.data[reader.at:])
+    form, time, velocity, acceleration, drag = bits.number(2), 0.0, [0.0, 0.0], [0.0, 0.0], [-1.0, -1.0]
+    is_driven = form == 3 and bits.number(1) == 1
+    if form == 3 and not is_driven:
+        bits.whole_bytes()
+        reader.take(1)
+        return reader.take(72)
+    if form != 0:
+        time = trajectory_time(bits, reader.stamp)
+    position = grid_pair(bits, 24) if form == 2 else grid_pair(bits, 17, 31.0)
+    if form != 0:
+        velocity = grid_pair(bits, 20 if form == 2 else 14)
+    if is_driven:
+        along, is_short = [(0.0, 1.0, -1.0)[bits.number(2)] for _ in "xy"], bits.number(1)
+    elif form == 2:
+        has_acceleration, is_own = bits.number(1), [bits.number(1), bits.number(1)]
+    reader.take(bits.whole_bytes())
+    if is_driven:
+        upper = reader.take(2)
+        (size,) = struct.unpack("<f", (b"\0\0" if is_short else reader.take(2)) + upper)
+        acceleration = [each * size if each else 0.0 for each in along]
+    elif form == 2:
+        acceleration = list(struct.unpack("<ff", reader.take(8))) if has_acceleration else acceleration
+        drag = [-1.0 if own else struct.unpack("<d", reader.take(8))[0] for own in is_own]
+    return struct.pack("<9d", time, *position, *velocity, *acceleration, *drag)
+
+
+def held_keys(reader, _):
+    """rink-input-1."""
+    packed = reader.varint()
+    assert packed >> 36 == 0
+    return struct.pack("<IB", packed >> 4, packed & 15)
+
+
+CODECS = {"rink-trajectory-2": trajectory, "rink-input-1": held_keys}
+SHIPPED_CODECS = {"Rink": [("Trajectory", "rink-trajectory-2"), ("Input", "rink-input-1")]}
 
 
 # Baselines
@@ -23,7 +149,7 @@ def signed(number):
 
 
 def is_quantised_throughout(model, name):
-    return model.size(name) is not None and all(grid is not None for _, _, grid in model.fields(name))
+    return model.size(name) is not None and all(grid is not None for _, _, grid, _ in model.fields(name))
 
 
 def rates(model, name, base=0):
@@ -47,16 +173,18 @@ def codec_lines(model, data_types):
     """The lines of the hash for those of an attribute's data types that have a quantised form."""
     lines = []
     for name in sorted(data_types):
-        if model.size(name) is None or all(grid is None for _, _, grid in model.fields(name)):
+        if model.size(name) is None or all(grid is None for _, _, grid, _ in model.fields(name)):
             continue
         text, moved = "codec %s rink-quantised-1" % name, rates(model, name)
-        for number, (form, (code, size, grid)) in enumerate(zip(model.forms(name), model.fields(name))):
+        for number, (form, (code, size, grid, padding)) in enumerate(zip(model.forms(name), model.fields(name))):
             text += " %d%s%d" % (FORMS[form[:-2]] if grid is not None else 0, "b" if grid is not None and form.endswith("BE") else "l", size)
             if grid is not None:
                 step, first, last = grid
                 text += ":%d:%d:%d" % (struct.unpack("<Q", struct.pack("<d", step))[0] // 2**52 - 1023, first, last - first)
             if number in moved:
                 text += "@%d" % moved[number]
+            if padding:
+                text += "+%d" % padding
         lines.append(text)
     return lines
 
@@ -112,13 +240,13 @@ def deltas(reader, new_bits):
         if bits.number(1) == 0:
             counts = [foretold + signed(golomb(bits, order)) for foretold, order in zip(predicted(fields, moved, baseline[handle], time), orders)]
         elif bits.number(1) == 0:
-            counts = [bits.number((last - first).bit_length()) for _, _, (_, first, last) in fields]
+            counts = [bits.number((last - first).bit_length()) for _, _, (_, first, last), _ in fields]
         if counts is None:
-            value = b"".join(bytes(bits.number(8) for _ in range(size)) for _, size, _ in fields)
+            value = b"".join(bytes(padding) + bytes(bits.number(8) for _ in range(size)) for _, size, _, padding in fields)
         else:
-            assert all(0 <= count <= last - first for count, (_, _, (_, first, last)) in zip(counts, fields)), "beyond the range"
-            numbers = [(first + count) * step for count, (_, _, (step, first, _)) in zip(counts, fields)]
-            value = b"".join(struct.pack(code, number if code[1] in "fd" else int(number)) for (code, _, _), number in zip(fields, numbers))
+            assert all(0 <= count <= last - first for count, (_, _, (_, first, last), _) in zip(counts, fields)), "beyond the range"
+            numbers = [(first + count) * step for count, (_, _, (step, first, _), _) in zip(counts, fields)]
+            value = b"".join(bytes(padding) + struct.pack(code, number if code[1] in "fd" else int(number)) for (code, _, _, padding), number in zip(fields, numbers))
             if keyframes.open is not None:
                 keyframes.states[keyframes.open][handle] = (counts, time)
         lines.append("reflect %d %s %s %s %s" % (handle, reader.object_class(number), name, reader.stamp, value.hex()))
