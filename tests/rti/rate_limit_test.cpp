@@ -6,6 +6,7 @@
 #include "rig.h"
 #include "rti/admission/token_bucket.h"
 #include "rti/transport/rate_limited_transport.h"
+#include "scripted_transport.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -102,6 +103,85 @@ TEST(RateLimit, FramesCountHoweverTheyAreCut) {
     line.hear();
     EXPECT_EQ(line.here.reason, CloseReason::too_fast);
   }
+}
+
+/// Bytes and datagrams as a script says, behind a limit.
+struct LimitedScript {
+  explicit LimitedScript(const RateLimit& limit, ConnectionId connections = 1)
+      : limited(inner, limit, [this] { return now; }) {
+    for (ConnectionId id = 0; id < connections; ++id) inner.opens(id);
+    hear();
+  }
+  void hear() { limited.poll({}, ear); }
+  struct Ear final : TransportListener {
+    std::map<ConnectionId, std::size_t> bytes, datagrams, datagram_bytes;
+    std::map<ConnectionId, CloseReason> closed;
+    void on_open(ConnectionId) override {}
+    void on_bytes(ConnectionId id, Bytes heard) override { bytes[id] += heard.size(); }
+    void on_datagram(ConnectionId id, Bytes heard) override {
+      ++datagrams[id], datagram_bytes[id] += heard.size();
+    }
+    void on_close(ConnectionId id, CloseReason why, const std::string&) override {
+      closed[id] = why;
+    }
+  };
+  double now = 0.0;
+  ScriptedTransport inner;
+  RateLimitedTransport limited;
+  Ear ear;
+};
+
+TEST(RateLimit, DatagramsCountAsTheirBytesBesideThoseOfTheStream) {
+  LimitedScript script({.bytes_per_s = 1000.0});
+  script.inner.says(0, std::vector<std::byte>(400));
+  for (int i = 0; i < 6; ++i) script.inner.says_by_datagram(0, std::vector<std::byte>(100));
+  script.hear();
+  EXPECT_EQ(script.ear.datagram_bytes[0], 600u);
+  EXPECT_TRUE(script.ear.closed.empty()) << "a second's worth";
+  script.inner.says_by_datagram(0, std::vector<std::byte>(1));
+  script.inner.says_by_datagram(0, std::vector<std::byte>(1));
+  script.inner.says(0, std::vector<std::byte>(1));
+  script.hear();
+  script.hear();
+  EXPECT_EQ(script.ear.datagram_bytes[0], 600u)
+      << "what is too much is not passed on, nor what follows it";
+  EXPECT_EQ(script.ear.bytes[0], 400u);
+  EXPECT_EQ(script.ear.closed.at(0), CloseReason::too_fast);
+  EXPECT_EQ(script.limited.closed(), 1u);
+  EXPECT_EQ(script.inner.closed, std::vector{ConnectionId{0}}) << "once";
+}
+
+TEST(RateLimit, ADatagramCountsAsAFrame) {
+  LimitedScript script({.frames_per_s = 50.0});
+  script.inner.says(0, frames(20, 10));
+  for (int i = 0; i < 30; ++i) script.inner.says_by_datagram(0, std::vector<std::byte>(1191));
+  script.hear();
+  EXPECT_EQ(script.ear.datagrams[0], 30u);
+  EXPECT_TRUE(script.ear.closed.empty());
+  script.inner.says_by_datagram(0, {});
+  script.hear();
+  EXPECT_EQ(script.ear.datagrams[0], 30u) << "an empty one too";
+  EXPECT_EQ(script.ear.closed.at(0), CloseReason::too_fast);
+}
+
+TEST(RateLimit, EachConnectionHasItsOwnAndANewOneOfAnOldNumberBeginsAnew) {
+  LimitedScript script({.bytes_per_s = 100.0}, 2);
+  script.inner.says_by_datagram(0, std::vector<std::byte>(101));
+  script.inner.says_by_datagram(1, std::vector<std::byte>(100));
+  script.hear();
+  EXPECT_EQ(script.ear.datagram_bytes[1], 100u) << "what another one says costs it nothing";
+  EXPECT_TRUE(script.ear.closed.contains(0) && !script.ear.closed.contains(1));
+  script.inner.opens(0);
+  script.inner.says_by_datagram(0, std::vector<std::byte>(100));
+  script.hear();
+  EXPECT_EQ(script.ear.datagram_bytes[0], 100u);
+}
+
+TEST(RateLimit, DatagramsOfAConnectionThatIsNotOpenAreNotPassedOn) {
+  LimitedScript script({}, 1);
+  script.inner.says_by_datagram(1, std::vector<std::byte>(10));
+  script.hear();
+  EXPECT_TRUE(script.ear.datagrams.empty());
 }
 
 }  // namespace
