@@ -46,6 +46,40 @@ TEST(Conformance, OneWhoBeginsToRegulateIsMovedToWhereItCannotSpeakInAnybodysPas
   EXPECT_EQ(error_of([&] { TimedFederation::say(young, just_after(10.0)); }), "");
 }
 
+// 8.3, 8.10: who heard all of an instant says nothing at it, for somebody could answer
+TEST(Conformance, OneWhoBeginsToRegulateCannotSpeakAtAnInstantOfWhichItHasHeardAll) {
+  for (const double lookahead : {0.0, 1.0}) {
+    TimedFederation federation{relaxed()};
+    TimedFederate& federate = federation.join_timed(-1.0);
+    federate.ambassador.time_advance_request(LogicalTime(10.0));
+    federation.carry();
+    federate.ambassador.enable_time_regulation(lookahead);
+    federation.carry();
+    EXPECT_EQ(federate.times(What::regulation), std::vector{10.0});
+    const double least = std::max(just_after(10.0), 10.0 + lookahead);
+    EXPECT_EQ(error_of([&] { TimedFederation::say(federate, std::nextafter(least, 0.0)); }),
+              "InvalidLogicalTime");
+    EXPECT_EQ(error_of([&] { TimedFederation::say(federate, least); }), "");
+    federation.carry();
+    EXPECT_EQ(federate.lost, "");
+  }
+}
+
+TEST(Conformance, OneWhoBeginsToRegulateMaySpeakAtAnInstantOfWhichNobodyHasHeardAll) {
+  TimedFederation federation{relaxed()};
+  TimedFederate& other = federation.join_timed(-1.0);
+  other.ambassador.time_advance_request_available(LogicalTime(10.0));
+  federation.carry();
+  TimedFederate& federate = federation.join_timed(0.0, false);
+  EXPECT_EQ(federate.times(What::regulation), std::vector{10.0});
+  EXPECT_EQ(error_of([&] { TimedFederation::say(federate, std::nextafter(10.0, 0.0)); }),
+            "InvalidLogicalTime");
+  TimedFederation::say(federate, 10.0, "more at that very time");
+  other.ambassador.time_advance_request_available(LogicalTime(10.0));
+  federation.carry();
+  EXPECT_EQ(other.times(What::message), std::vector{10.0});
+}
+
 // 8.4, 8.7
 TEST(Conformance, WhatIsNotEnabledCannotBeDisabled) {
   TimedFederation federation{relaxed()};
@@ -267,6 +301,42 @@ TEST(Conformance, AMessageThatIsTakenBackIsNotDelivered) {
   EXPECT_EQ(error_of([&] { sender.ambassador.retract(kept); }), "MessageCanNoLongerBeRetracted");
   EXPECT_EQ(error_of([&] { sender.ambassador.retract({receiver.ambassador.federate(), 0, 90.0}); }), "InvalidMessageRetractionHandle");
   EXPECT_EQ(error_of([&] { receiver.ambassador.retract(kept); }), "TimeRegulationIsNotEnabled");
+}
+
+// 8.21: as long as a message of that time stamp could still be sent
+TEST(Conformance, AMessageMayBeTakenBackAtTheLeastTimeStampAllowedAndNotBelowIt) {
+  TimedFederation federation{relaxed()};
+  TimedFederate& sender = federation.join_timed(1.0, false);
+  TimedFederate& receiver = federation.join_timed(-1.0);
+  const RetractionHandle below = TimedFederation::say(sender, std::nextafter(4.0, 0.0)),
+                         at = TimedFederation::say(sender, 4.0);
+  sender.ambassador.time_advance_request(LogicalTime(3.0));
+  EXPECT_EQ(error_of([&] { sender.ambassador.retract(below); }), "MessageCanNoLongerBeRetracted")
+      << "while the advance is under way";
+  federation.carry();
+  EXPECT_EQ(error_of([&] { sender.ambassador.retract(below); }), "MessageCanNoLongerBeRetracted");
+  EXPECT_EQ(error_of([&] { sender.ambassador.retract(at); }), "");
+  sender.ambassador.time_advance_request(LogicalTime(9.0));
+  receiver.ambassador.time_advance_request(LogicalTime(9.0));
+  federation.carry();
+  EXPECT_EQ(receiver.times(What::message), std::vector{below.time});
+}
+
+// 8.21
+TEST(Conformance, WhatWasSentBeforeRegulationEndedStays) {
+  TimedFederation federation{relaxed()};
+  TimedFederate& sender = federation.join_timed(1.0, false);
+  TimedFederate& receiver = federation.join_timed(-1.0);
+  const RetractionHandle early = TimedFederation::say(sender, 5.0);
+  sender.ambassador.disable_time_regulation();
+  federation.carry();
+  sender.ambassador.enable_time_regulation(1.0);
+  federation.carry();
+  EXPECT_EQ(error_of([&] { sender.ambassador.retract(early); }), "MessageCanNoLongerBeRetracted");
+  sender.ambassador.time_advance_request(LogicalTime(9.0));
+  receiver.ambassador.time_advance_request(LogicalTime(9.0));
+  federation.carry();
+  EXPECT_EQ(receiver.times(What::message), std::vector{5.0});
 }
 
 // 8.22
