@@ -67,10 +67,11 @@ class Flights : private Outlet {
     }
     execution_.match();
     execution_.flush(*this);
-    EXPECT_EQ(drops_, 0);
+    EXPECT_EQ(drops_, resigned) << "connections end only by resigning";
   }
   std::deque<Member>& pilots() { return pilots_; }
   FederationExecution& execution() { return execution_; }
+  int resigned = 0;  ///< whose connections the test expects to end
 
  private:
   void send(ConnectionId id, std::span<const Bytes> parts) override {
