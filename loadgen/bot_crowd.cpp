@@ -37,6 +37,8 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
         .view_fraction = settings.view_fraction,
         .view_area = settings.view_area, .view_margin = settings.view_margin};
     bots_.push_back(std::make_unique<Bot>(fom, model_, client, measurements_));
+    Bot* const bot_there = bots_.back().get();
+    bot_there->client.on_news = [this, bot_there](const rti::Stamp& stamp) { note_news(*bot_there, stamp); };
     if (!settings_.players.do_decide()) continue;
     bots_.back()->player.emplace(settings_.players, settings.first + bot);
     decision_order_.push_back(bot);
@@ -80,15 +82,19 @@ void BotCrowd::on_datagram(rti::ConnectionId connection, rti::Bytes datagram) {
   after_receiving(bot);
 }
 
+/// What is read at once may hold several ticks' news, and datagrams bring those of one tick between those of others: each tick counts once.
+void BotCrowd::note_news(Bot& bot, const rti::Stamp& stamp) {
+  if (bot.client.state() != game::Client::State::playing || stamp.tag == 0) return;
+  if (std::ranges::find(bot.seen_tags, stamp.tag) != bot.seen_tags.end()) return;
+  bot.seen_tags[bot.next_seen++ % bot.seen_tags.size()] = stamp.tag;
+  const double due = 1e-9 * static_cast<double>(stamp.tag);
+  if (!origin_s_) start_clock(due - stamp.time, stamp.time);
+  bot.probe.news_applied(due, now_s_(), measurements_.is_counted(stamp.time));
+}
+
 void BotCrowd::after_receiving(Bot& bot) {
-  const rti::Stamp& newest = bot.client.mirror().newest();
-  if (bot.client.state() == game::Client::State::playing && newest.tag != 0 && newest.tag != bot.seen_tag) {
-    bot.seen_tag = newest.tag;
-    const double due = 1e-9 * static_cast<double>(newest.tag);
-    if (!origin_s_) start_clock(due - newest.time, newest.time);
-    const game::MirroredEntity* bat = bot.client.bat();
-    bot.probe.batch_applied(due, now_s_(), bat == nullptr ? 0 : bat->input.count, measurements_.is_counted(newest.time));
-  }
+  const game::MirroredEntity* const bat = bot.client.bat();
+  if (bat != nullptr && bot.client.state() == game::Client::State::playing) bot.probe.keys_felt(now_s_(), bat->input.count);
   const std::uint32_t number = bot_of_connection_[bot.connection];
   if (witness_ && witness_->watches(number)) witness_->listen(number, origin_s_ ? std::optional(simulated_now()) : std::nullopt);
   sample_when_due();

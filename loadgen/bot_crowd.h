@@ -1,6 +1,7 @@
 // Any number of headless clients over one transport, each with a connection, a federate and a key plan of its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -92,7 +93,8 @@ class BotCrowd : public rti::TransportListener {
     game::Client client;
     Probe probe;
     rti::ConnectionId connection = 0;
-    std::uint64_t seen_tag = 0;
+    std::array<std::uint64_t, 16> seen_tags{};  ///< of the ticks that brought news last
+    std::size_t next_seen = 0;
     bool is_lost = false;
     std::optional<LivePlayer> player;
     game::KeysHeld held;  ///< by a player who decides
@@ -114,6 +116,7 @@ class BotCrowd : public rti::TransportListener {
   void on_datagram(rti::ConnectionId connection, rti::Bytes datagram) override;
   void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override;
 
+  void note_news(Bot& bot, const rti::Stamp& stamp);
   void after_receiving(Bot& bot);
   void send(Bot& bot);
   void lose(Bot& bot, const std::string& why, game::ExitStatus status);

@@ -149,7 +149,8 @@ void PeerProcesses::replay(Measurements& measured, PeerTotals& totals) const {
     for (const game::PeerEvidence::Event& event : peer.events) {
       const bool is_counted = measured.is_counted(event.due_s);
       if (event.kind == Kind::key) measured.keys_due += is_counted, probe.key_sent(event.due_s, event.instant_s, is_counted);
-      else probe.batch_applied(event.due_s, event.instant_s, event.felt, event.kind == Kind::known && is_counted);
+      else probe.keys_felt(event.instant_s, event.felt);
+      if (event.kind == Kind::known) probe.news_applied(event.due_s, event.instant_s, is_counted);
       if (event.kind != Kind::known || !is_counted) continue;
       ++totals.known;
       totals.on_time += event.instant_s <= event.due_s + window_s;

@@ -23,7 +23,7 @@ PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSetti
         outbox.resize(before + frame.size());
         std::memcpy(outbox.data() + before, frame.data(), frame.size());
       }) {
-  node_.on_final = [this] { probe_.batch_applied(clock_.now_s, clock_.now_s, node_.interest().felt(), false); };
+  node_.on_final = [this] { probe_.keys_felt(clock_.now_s, node_.interest().felt()); };
   node_.on_commit = [this] { note_commit(); };
 }
 
@@ -50,7 +50,8 @@ void PeerStation::hear(peer::PeerNumber from, rti::Bytes bytes) {
 /// All of a window is known: as old as it is now, it is what an update is to a client.
 void PeerStation::note_commit() {
   const double simulated_s = node_.windows_final() / rate_hz_;
-  probe_.batch_applied(clock_.start_s + simulated_s, clock_.now_s, node_.interest().felt(), measurements_.is_counted(simulated_s));
+  probe_.news_applied(clock_.start_s + simulated_s, clock_.now_s, measurements_.is_counted(simulated_s));
+  probe_.keys_felt(clock_.now_s, node_.interest().felt());
   constexpr double rounding_s = 1e-9;
   known_ += measurements_.is_counted(simulated_s);
   on_time_ += measurements_.is_counted(simulated_s) && clock_.simulated_s() <= simulated_s + 1.0 / rate_hz_ + rounding_s;

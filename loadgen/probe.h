@@ -27,8 +27,10 @@ class Probe {
 
   /// A key due at `due_s` was sent at `sent_s`. `is_counted`: it falls into the measured span.
   void key_sent(double due_s, double sent_s, bool is_counted);
-  /// A tick's batch of updates, due at `due_s`, was applied at `now_s`; the own bat has felt the first `felt` keys.
-  void batch_applied(double due_s, double now_s, std::uint32_t felt, bool is_counted);
+  /// News of a tick that was due at `due_s` was applied at `now_s`; once for each tick. `is_counted`: the tick falls into the measured span.
+  void news_applied(double due_s, double now_s, bool is_counted);
+  /// By `now_s` the own bat has felt the first `felt` keys.
+  void keys_felt(double now_s, std::uint32_t felt);
   /// Keys sent and counted that never showed an effect.
   std::uint64_t unanswered() const;
 

@@ -89,6 +89,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("busiest_node_events_per_s", run.nodes.busiest_events_per_s);
   line.field("busiest_node_cpu_s", run.nodes.busiest_cpu_s);
   line.field("mean_node_cpu_s", run.nodes.mean_cpu_s);
+  line.field("update_age_samples", run.update_age_samples);
 }
 
 }  // namespace rink::loadgen

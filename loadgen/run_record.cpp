@@ -59,6 +59,11 @@ class ReportReader {
     complain(key, "a histogram");
     return {};
   }
+  std::optional<std::uint64_t> samples_if_there(const char* key) {
+    const nlohmann::json* value = find(key);
+    const auto histogram = value ? Histogram::from_json(*value) : std::nullopt;
+    return histogram ? std::optional(histogram->count()) : std::nullopt;
+  }
   void verdict() {
     const nlohmann::json* value = find("valid");
     if (!value || !value->is_boolean()) {
@@ -167,6 +172,7 @@ void fill_nodes(RunRecord& record, ReportReader& server) {
 
 void fill_from_bots(RunRecord& record, ReportReader& bots) {
   record.update_age_ms = bots.percentiles("update_age_ms");
+  record.update_age_samples = bots.samples_if_there("update_age_ms");
   record.key_to_effect_ms = bots.percentiles("key_to_effect_ms");
   record.keys_due = bots.count("keys_due");
   record.keys_sent = bots.count("keys_sent");

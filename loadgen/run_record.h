@@ -57,6 +57,7 @@ struct RunRecord {
   std::optional<double> down_bytes_per_client_per_s, up_bytes_per_client_per_s, wire_bytes_per_client_per_s;
   std::optional<double> messages_per_s;
   Percentiles update_age_ms, key_to_effect_ms;
+  std::optional<std::uint64_t> update_age_samples;  ///< clients x ticks, less what brought no news
   std::optional<double> physics_us_per_tick, filter_us_per_tick, send_us_per_tick;
   std::optional<std::uint64_t> server_rss_bytes;
   std::string state_hash;  ///< 16 hexadecimal digits, or empty if unknown

@@ -149,9 +149,16 @@ void Client::discover_object_instance(rti::ObjectHandle object, rti::ObjectClass
   if (seat_ && name == bat_name(seat_->bat)) bat_ = object;
 }
 
+bool Client::is_state_on_entry(rti::ObjectHandle object) const {
+  const MirroredEntity* const entity = mirror_.find(object);
+  return entity != nullptr && !entity->is_placed;
+}
+
 void Client::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp) {
   if (before_next_stamp && stamp != mirror_.newest()) before_next_stamp();
+  const bool is_news = on_news && stamp != news_ && !is_state_on_entry(object);
   mirror_.reflect(object, attributes, values, stamp);
+  if (is_news) on_news(news_ = stamp);
   if (is_watched_) heard_.updates.push_back({object, static_cast<std::uint32_t>(values.size())});
   if (state_ == State::joining) subscribe_once_seated();
   if ((state_ == State::seated || state_ == State::ready) && object == bat_) reach_barrier_once_ready();

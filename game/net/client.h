@@ -80,6 +80,10 @@ class Client : public rti::FederateAmbassador {
   /// Called before the first update with another stamp than the newest is applied: the mirror then holds all that was true at the newest, and will not again.
   std::function<void()> before_next_stamp;
 
+  /// Called after an update is applied, with its stamp, if the update before it had another: so a batch calls it once, and each of several that are read at once does.
+  /// The state of an entity that comes into scope is no news of its stamp, which is its owner's newest and may be of a tick long before; it calls nothing.
+  std::function<void(const rti::Stamp&)> on_news;
+
   /// Makes the client keep what it hears, for who measures it; off at first.
   void watch() { is_watched_ = true; }
   const Heard& heard() const { return heard_; }
@@ -132,6 +136,7 @@ class Client : public rti::FederateAmbassador {
   void ask_for_tick();
   void pass_if_absent();
   void set_scope(rti::ObjectHandle object, bool is_in);
+  bool is_state_on_entry(rti::ObjectHandle object) const;
   void receive_interest(rti::Bytes parameters);
   void send_key(rti::InteractionClassHandle interaction, Key key, double instant);
   void look_around(const Position& centre);
@@ -156,6 +161,7 @@ class Client : public rti::FederateAmbassador {
   im::Region view_bounds_;
   std::vector<std::byte> encoded_;
   Heard heard_;
+  rti::Stamp news_;         ///< of the newest update that was no state on entry
   bool is_watched_ = false;
   bool is_called_ = false;  ///< to the start barrier
   std::uint32_t keys_sent_ = 0;

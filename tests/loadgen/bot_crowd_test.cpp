@@ -1,0 +1,171 @@
+// What a crowd measures while its own clock stands still for a moment: a stall of the bots shows in every latency that it lengthened.
+#include "loadgen/bot_crowd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "game/model/scene_file.h"
+#include "game/net/fom_file.h"
+#include "game/net/serving.h"
+#include "game/replication/trajectory_codec.h"
+#include "loadgen/virtual_parts.h"
+#include "rti/transport/virtual_network.h"
+
+namespace rink::loadgen {
+namespace {
+
+/// Hands on what one poll brings as a kernel does: all bytes of a connection that came since the last poll at once.
+class OneRead final : public rti::Transport, private rti::TransportListener {
+ public:
+  explicit OneRead(rti::Transport& inner) : inner_(inner) {}
+  void poll(std::chrono::nanoseconds longest_wait, rti::TransportListener& listener) override {
+    listener_ = &listener;
+    inner_.poll(longest_wait, *this);
+    for (auto& [connection, bytes] : std::exchange(waiting_, {})) listener.on_bytes(connection, bytes);
+  }
+  void send(rti::ConnectionId connection, std::span<const rti::Bytes> parts) override { inner_.send(connection, parts); }
+  void close(rti::ConnectionId connection) override { inner_.close(connection); }
+  rti::TransportCounters counters(rti::ConnectionId connection) const override { return inner_.counters(connection); }
+
+ private:
+  void on_open(rti::ConnectionId connection) override { listener_->on_open(connection); }
+  void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override { waiting_[connection].insert(waiting_[connection].end(), bytes.begin(), bytes.end()); }
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string& detail) override { listener_->on_close(connection, reason, detail); }
+
+  rti::Transport& inner_;
+  rti::TransportListener* listener_ = nullptr;
+  std::map<rti::ConnectionId, std::vector<std::byte>> waiting_;
+};
+
+/// A server that ticks 50 times a second, and both players of a match, who hear it without delay whenever their process runs.
+class StalledCrowd : public testing::Test {
+ protected:
+  static constexpr double rate_hz = 50.0;
+  static constexpr std::uint32_t bots = 2;
+
+  /// `plan`: keys to press; those due before `warm_up_s` of simulated time are not counted.
+  void start(const std::vector<game::InputEvent>& plan, double warm_up_s, double duration_s) {
+    crowd_.emplace(fom_, reads_, BotCrowdSettings{.view_fraction = 1.0, .warm_up_s = warm_up_s, .duration_s = duration_s}, bots, plan, [this] { return network_.now_s(); });
+    crowd_->connect([this](std::uint32_t) { return bots_end_.connect("server"); });
+    game::TickCosts uncounted;
+    const auto step = [&] {
+      network_.advance_to(network_.now_ns() + 20'000'000);
+      serving_.exchange(0.0);
+      if (serving_.server().is_joined()) serving_.send(0.0, 0.0, uncounted);
+      crowd_->run_once();
+    };
+    while (serving_.server().player_count() < bots) step();
+    serving_.server().call_to_start();
+    while (!serving_.server().is_started()) step();
+    start_ns_ = (network_.now_ns() / second_ns + 1) * second_ns;
+    network_.advance_to(start_ns_);
+  }
+  /// Plays ticks up to that of simulated `until_s`, which comes last; the bots run after each if they are not `stalled`.
+  void play(double until_s, bool is_stalled = false) {
+    for (; next_tick_ <= std::llround(until_s * rate_hz); ++next_tick_) {
+      run_until(static_cast<double>(next_tick_) / rate_hz, is_stalled);
+      serving_.tick(static_cast<double>(next_tick_) / rate_hz, network_.now_s());
+      network_.advance_to(network_.now_ns());
+      if (!is_stalled) crowd_->run_once();
+    }
+  }
+  /// The instant [s] comes, and what was sent by then reaches who runs.
+  void run_until(double instant_s, bool is_stalled = false) {
+    network_.advance_to(start_ns_ + nanoseconds(instant_s));
+    if (!is_stalled) crowd_->run_once();
+    network_.advance_to(network_.now_ns());
+    serving_.exchange(0.0);
+  }
+  const Measurements& measured() const { return crowd_->measurements(); }
+  static game::InputEvent key(double instant_s) { return {.time = instant_s, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}; }
+
+  rti::ConstantDelay model_{0};
+  rti::VirtualNetwork network_{model_};
+  rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
+  OneRead reads_{bots_end_};
+  const rti::Fom fom_ = game::load_rink_fom(game::fom_file());
+  const game::Scene scene_ = game::load_scene("match");
+  std::int64_t start_ns_ = 0;
+  long next_tick_ = 0;
+  game::Serving serving_{fom_, scene_, [] {
+                           game::ServerSettings settings;
+                           settings.tick_s = 1.0 / rate_hz;
+                           return settings;
+                         }(), game::federation_settings(scene_, "none", 0.0),
+                         [this] { return network_.now_s(); }, [this] { return 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }};
+  std::optional<BotCrowd> crowd_;
+
+  void SetUp() override {
+    server_end_.listen("server");
+    serving_.host().add(server_end_);
+  }
+};
+
+/// Three ticks wait in the sockets while nobody reads, and are read at once 60 ms after the first of them was due.
+TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
+  start({}, 0.0, 2.0);
+  play(0.38);
+  EXPECT_EQ(measured().update_age.count(), 20u * bots) << "ticks 0 to 19";
+  play(0.44, true);
+  run_until(0.46);
+  EXPECT_EQ(measured().update_age.count(), 23u * bots);
+  EXPECT_NEAR(measured().update_age.max_s(), 0.06, 1e-9);
+  EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9) << "and none of the others waited";
+  play(1.98);
+  EXPECT_EQ(measured().update_age.count(), 100u * bots) << "clients x ticks";
+}
+
+/// The process is not run for 200 ms; the key that was due at the beginning of that goes out late, and whoever counts from then hides the stall.
+TEST_F(StalledCrowd, AKeysLatencyCountsFromWhenItWasDueAndNotFromWhenItWasSent) {
+  start({key(1.0)}, 0.5, 2.0);
+  play(0.98);
+  play(1.18, true);
+  run_until(1.2 - 1e-3);
+  EXPECT_EQ(measured().keys_sent, 1u);
+  EXPECT_NEAR(measured().send_lateness.max_s(), 0.199, 1e-9);
+  EXPECT_EQ(measured().late_sends, 1u);
+  play(1.3);
+  ASSERT_EQ(measured().key_to_effect.count(), 1u);
+  EXPECT_NEAR(measured().key_to_effect.max_s(), 0.2, 1e-9) << "due at 1 s, felt by the tick at 1.2 s";
+  EXPECT_NEAR(measured().key_to_effect.min_s(), 0.2, 1e-9);
+  EXPECT_EQ(crowd_->unanswered_keys(), 0u);
+}
+
+TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
+  start({key(0.605), key(0.805)}, 0.5, 2.0);
+  play(0.6);
+  run_until(0.605 + Probe::late_s - 1e-4);
+  EXPECT_EQ(measured().keys_sent, 1u);
+  EXPECT_EQ(measured().late_sends, 0u);
+  play(0.8);
+  run_until(0.805 + Probe::late_s + 1e-4);
+  EXPECT_EQ(measured().late_sends, 1u);
+  EXPECT_EQ(measured().keys_sent, 2u);
+}
+
+/// Warm-up is from 0 to 0.5 s, the end at 1 s: ticks 25 to 49 and what happens between 0.5 s, itself included, and 1 s.
+TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
+  start({key(0.1), key(0.5), key(0.7)}, 0.5, 1.0);
+  play(0.48);
+  EXPECT_EQ(measured().update_age.count(), 0u);
+  EXPECT_EQ(measured().keys_due, 0u);
+  const CrowdTraffic before = crowd_->total_traffic();
+  play(1.2);
+  EXPECT_EQ(measured().update_age.count(), 25u * bots);
+  EXPECT_EQ(measured().keys_due, 2u);
+  EXPECT_EQ(measured().keys_sent, 2u);
+  EXPECT_EQ(measured().key_to_effect.count(), 2u);
+  EXPECT_NEAR(crowd_->measured_s(), 0.5, 1e-9);
+  const CrowdTraffic whole = crowd_->total_traffic(), within = crowd_->traffic();
+  EXPECT_EQ(within.updates_received * 36, (whole.updates_received - before.updates_received) * 25) << "of ticks 25 to 60 those before the 50th; each has as many";
+  std::uint64_t by_bot = 0;
+  for (const std::uint64_t bytes : crowd_->bytes_received_by_bot()) by_bot += bytes;
+  EXPECT_EQ(by_bot, within.bytes_received);
+}
+
+}  // namespace
+}  // namespace rink::loadgen
