@@ -26,10 +26,6 @@ using std::chrono::milliseconds;
 constexpr double late_fraction_max = 0.01;    // as of bots: more late keys, and the plan was not what was played
 constexpr int peer_is_gone = 16;              // rink peer's exit status when it ends for another's sake
 
-std::uint64_t last_window(const Experiment& experiment, const Cell& cell) {
-  return static_cast<std::uint64_t>(std::floor((experiment.warm_up_s + experiment.duration_s) * cell.parameters.tick_rate_hz + 1e-9));
-}
-
 class PeerProcesses {
  public:
   PeerProcesses(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log)
@@ -162,6 +158,7 @@ void PeerProcesses::replay(Measurements& measured, PeerTotals& totals) const {
 PeerTotals PeerProcesses::totals() const {
   PeerTotals totals;
   totals.windows = last_window(experiment_, cell_);
+  totals.measured_windows = loadgen::measured_windows(experiment_, cell_);
   totals.state_hash = reports_.front().at("hash");
   TrafficTotals begin;
   std::uint64_t kernel_sent = 0, kernel_received = 0, busiest_rss = 0;

@@ -2,6 +2,7 @@
 #include "loadgen/peer_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "loadgen/peer_station.h"
@@ -40,6 +41,17 @@ TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
   return a;
 }
 
+std::uint64_t last_window(const Experiment& experiment, const Cell& cell) {
+  return static_cast<std::uint64_t>(std::floor((experiment.warm_up_s + experiment.duration_s) * cell.parameters.tick_rate_hz + 1e-9));
+}
+
+/// Window 0 is the start, at which nothing ends.
+std::uint64_t measured_windows(const Experiment& experiment, const Cell& cell) {
+  const auto first = static_cast<std::uint64_t>(std::max(1.0, std::ceil(experiment.warm_up_s * cell.parameters.tick_rate_hz - 1e-9)));
+  const std::uint64_t last = last_window(experiment, cell);
+  return last > first ? last - first : 0;
+}
+
 Json peers_report(const Cell& cell, const PeerTotals& totals) {
   using game::Traffic;
   const TrafficTotals& measured = totals.measured;
@@ -52,15 +64,15 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
           {"clients", cell.clients},
           {"seed", cell.seed},
           {"tick_rate_hz", cell.parameters.tick_rate_hz},
-          {"ticks", totals.windows},
+          {"ticks", totals.measured_windows},
           {"ticks_on_time_fraction", totals.known == 0 ? Json(nullptr) : Json(static_cast<double>(totals.on_time) / static_cast<double>(totals.known))},
           {"physics_us_per_tick", nullptr},
           {"filter_us_per_tick", nullptr},
           {"send_us_per_tick", nullptr},
           {"server_rss_bytes", or_null(totals.busiest_rss)},
           {"measured_s", totals.measured_s},
-          {"valid", totals.windows > 0},
-          {"why_invalid", totals.windows > 0 ? "" : "no window was measured"},
+          {"valid", totals.measured_windows > 0},
+          {"why_invalid", totals.measured_windows > 0 ? "" : "no window was measured"},
           {"entities", totals.entities},
           {"state_hash", totals.state_hash},
           {"bytes_sent", measured.bytes},

@@ -28,10 +28,15 @@ struct TrafficTotals {
 };
 TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b);
 
+/// The last window that a run's peers play; it ends when the run does, or at the last instant before that at which a window can.
+std::uint64_t last_window(const Experiment& experiment, const Cell& cell);
+/// Windows that end within the measured span, which the end of the last one closes.
+std::uint64_t measured_windows(const Experiment& experiment, const Cell& cell);
+
 struct PeerTotals {
   TrafficTotals measured, whole;
   double measured_s = 0.0;
-  std::uint64_t windows = 0, entities = 0, keys_unanswered = 0;
+  std::uint64_t windows = 0, measured_windows = 0, entities = 0, keys_unanswered = 0;
   std::uint64_t known = 0, on_time = 0;  ///< measured windows of each peer, and those known before the next one's end
   peer::PeerCounters counters;  ///< of all peers, from start to end
   std::uint64_t whole_received = 0;                                        ///< bytes; and what the kernel counted, if there is one:

@@ -106,7 +106,7 @@ class PeerRun {
  private:
   PeerTotals totals() const;
   double played_s() const { return experiment_.warm_up_s + experiment_.duration_s; }
-  std::uint64_t last_window() const { return static_cast<std::uint64_t>(std::floor(played_s() * cell_.parameters.tick_rate_hz + 1e-9)); }
+  std::uint64_t last_window() const { return loadgen::last_window(experiment_, cell_); }
   void advance_until(std::int64_t until_ns);
   void flush();
   void act_when_due();
@@ -245,12 +245,12 @@ void PeerRun::run() {
     const double simulated_s = static_cast<double>(window) / cell_.parameters.tick_rate_hz;
     advance_until(start_ns + nanoseconds(simulated_s));
     if (!is_measuring && simulated_s >= experiment_.warm_up_s) is_measuring = true, begin_ = traffic(), measured_from_ns = network_.now_ns();
+    // The last window's end closes the span and is not in it: n windows, and the n periods that they begin.
+    if (window == last_window()) measured_ = traffic() - begin_, measured_s_ = 1e-9 * static_cast<double>(network_.now_ns() - measured_from_ns);
     if (window == 0) continue;
     for (PeerStation& station : stations_) station.due();
     flush();
   }
-  measured_ = traffic() - begin_;
-  measured_s_ = 1e-9 * static_cast<double>(network_.now_ns() - measured_from_ns);
   const auto is_done = [&](const PeerStation& station) { return station.node().windows_final() == last_window() && station.node().is_idle(); };
   advance_until(start_ns + nanoseconds(played_s()) + 4 * settling_ns(experiment_) + 1);
   for (int tries = 0; !std::all_of(stations_.begin(), stations_.end(), is_done); ++tries) {
@@ -294,6 +294,7 @@ PeerTotals PeerRun::totals() const {
   PeerTotals totals;
   totals.measured = measured_, totals.measured_s = measured_s_;
   totals.windows = last_window();
+  totals.measured_windows = loadgen::measured_windows(experiment_, cell_);
   totals.entities = game_.start().entities().size();
   totals.state_hash = state_hash();
   totals.whole = traffic();

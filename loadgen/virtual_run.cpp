@@ -170,12 +170,14 @@ void VirtualRun::play() {
       begin_ = counts_of(serving_, server_end_.totals());
       measured_from_ns_ = network_.now_ns();
     }
+    if (number == last) {  // it closes the span and is not in it: n ticks, and the n periods that they begin
+      end_ = counts_of(serving_, server_end_.totals());
+      measured_until_ns_ = network_.now_ns();
+    }
     serving_.tick(simulated_s, now_s());
     crowd_.run_once();
-    if (simulated_s >= experiment_.warm_up_s) ++ticks_;
+    if (simulated_s >= experiment_.warm_up_s && number < last) ++ticks_;
   }
-  end_ = counts_of(serving_, server_end_.totals());
-  measured_until_ns_ = network_.now_ns();
   advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns(experiment_) + 1);  // the last answers
 }
 

@@ -52,7 +52,9 @@ double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<st
 /// What the run cost, summed over the measured ticks.
 struct Costs {
   std::uint64_t ticks = 0, ticks_on_time = 0;
-  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0, span_s = 0.0;
+  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0;
+  double from_s = 0.0, span_s = 0.0;  ///< the measured span: when it began on the clock, and its length
+  bool has_ended = false;
   game::ServingCounts begin, end;
 };
 
@@ -101,7 +103,8 @@ class ServerProcess {
   void wait(double seconds);
   void exchange_until(double until_s);
   void await_turns();
-  void tick(std::uint64_t number);
+  void tick(std::uint64_t number, bool is_counted);
+  void end_span();
   void keep_records();
 
   game::ServeOptions options_;
@@ -163,13 +166,13 @@ bool ServerProcess::start() {
   return server_.is_started();
 }
 
-void ServerProcess::tick(std::uint64_t number) {
+void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double period_s = 1.0 / options_.rate_hz, elapsed_s = static_cast<double>(number) * period_s;
   const double simulated_s = options_.hosted.empty() ? elapsed_s : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
   keep_records();
-  if (elapsed_s < options_.warm_up_s) return;
+  if (!is_counted) return;
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
   costs_.send_s += tick.send_s;
@@ -183,7 +186,6 @@ void ServerProcess::run() {
   start_s_ = now_s() + lead_s;
   const std::uint64_t last = options_.duration_s > 0.0 ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9)) : ~0ull;
   bool is_measuring = false;
-  double measured_from_s = start_s_;
   for (std::uint64_t number = 0; number <= last && !game::is_interrupted && server_.trouble().empty(); ++number) {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous")
@@ -193,13 +195,20 @@ void ServerProcess::run() {
     if (game::is_interrupted || !server_.trouble().empty()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
-      measured_from_s = now_s();
+      costs_.from_s = now_s();
       staggered_.forget_bursts();
       costs_.begin = counts_of(serving_, sockets_.totals());
     }
-    tick(number);
+    // The last tick closes the span and is not in it: n ticks, and the n periods that they begin.
+    if (is_measuring && number == last) end_span();
+    tick(number, is_measuring && number < last);
   }
-  costs_.span_s = is_measuring ? now_s() - measured_from_s : 0.0;
+  if (is_measuring && !costs_.has_ended) end_span();
+}
+
+void ServerProcess::end_span() {
+  costs_.has_ended = true;
+  costs_.span_s = now_s() - costs_.from_s;
   costs_.end = counts_of(serving_, sockets_.totals());
 }
 

@@ -20,6 +20,7 @@ ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& cl
 
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
   const rti::FederationCounters &begin = first.federation, &end = last.federation;
+  const rti::FederationCounters now = serving.execution().counters();  // who is dropped after the span is dropped, too
   const Server& server = serving.server();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
@@ -41,7 +42,7 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
               {"filter_regions_moved", last.filter.regions_moved - first.filter.regions_moved},
               {"filter_pairs_tested", last.filter.pairs_tested - first.filter.pairs_tested},
               {"lost_federates", server.counters().federates_lost},
-              {"dropped_connections", std::accumulate(end.drops.begin(), end.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
+              {"dropped_connections", std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
               {"keys_received", server.counters().keys_received},
               {"keys_applied", server.counters().keys_applied},
               {"keys_refused", server.counters().keys_refused}};

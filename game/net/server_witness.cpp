@@ -17,7 +17,8 @@ ServerWitness::ServerWitness(const SamplingSettings& settings, double rate_hz)
 void ServerWitness::look(const Server& server, const rti::FederationExecution& execution, const ServerEvidence::Tick& tick) {
   name_objects(server);
   evidence_.end_s = tick.simulated_s;
-  if (tick.simulated_s >= settings_.from_s && evidence_.ticks.size() < settings_.record_max) evidence_.ticks.push_back(tick);
+  const bool is_measured = tick.simulated_s >= settings_.from_s && tick.simulated_s < settings_.until_s;
+  if (is_measured && evidence_.ticks.size() < settings_.record_max) evidence_.ticks.push_back(tick);
   for (; next_instant_ < instants_.size() && instants_[next_instant_] < tick.simulated_s + tick_s_; ++next_instant_)
     if (instants_[next_instant_] >= tick.simulated_s) note_decisions(server, execution, instants_[next_instant_]);
 }

@@ -14,6 +14,7 @@
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
+#include "loadgen/bots_evidence.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/summary.h"
@@ -72,7 +73,7 @@ TEST_F(VirtualRunTest, EveryUpdateIsExactlyAsOldAsTheDelay) {
     EXPECT_NEAR(ages["min_s"].get<double>(), 1e-3 * delay_ms, 1e-12);
     EXPECT_NEAR(ages["max_s"].get<double>(), 1e-3 * delay_ms, 1e-12);
     EXPECT_EQ(ages["count"], 6 * 40) << "one per client and measured tick";
-    EXPECT_EQ(record.ticks, 41u) << "from the first instant measured to the last";
+    EXPECT_EQ(record.ticks, 40u) << "n ticks and the n periods that they begin: the one at the end is not among them";
   }
 }
 
@@ -203,6 +204,39 @@ TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionT
   EXPECT_EQ(mates.filter_precision, 1.0);
   EXPECT_LT(mates.filter_recall.value_or(1.0), 0.8);
   EXPECT_FALSE(own.filter_precision) << "his own bat is in no count, and nothing else is chosen";
+}
+
+/// Every entry and every exit that the server said reached a watched bot, without delay, and is in its evidence.
+TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
+  experiment_.schemes = {"region"};
+  experiment_.delay_ms = 0.0;
+  experiment_.duration_s = 3.0;
+  settings_.wants_truth = true;
+  const RunRecord record = run(first_cell());
+  const nlohmann::json server = report(first_cell(), "server");
+  ASSERT_GT(server["scope_exits"], 10);
+  ASSERT_GT(server["scope_entries"], 10);
+  const double changes = server["scope_exits"].get<double>() + server["scope_entries"].get<double>();
+  EXPECT_NEAR(*record.truth.churn_per_client_per_s, changes / 6.0 / 3.0, 1e-9);
+  std::uint64_t exits = 0;
+  for (const BotsEvidence::Bot& bot : read_bots_evidence((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
+    for (const BotsEvidence::ScopeChange& change : bot.changes) exits += !change.is_in && change.instant_s >= experiment_.warm_up_s && change.instant_s < experiment_.warm_up_s + experiment_.duration_s;
+  EXPECT_EQ(server["scope_exits"], exits);
+}
+
+/// A window of 50 ms before a sample holds one tick at 20 Hz, which says each body that moves in 8 bytes of values.
+TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
+  experiment_.schemes = {"none"};
+  experiment_.delay_ms = 0.0;
+  settings_.wants_truth = true;
+  const RunRecord record = run(first_cell());
+  const BotsEvidence bots = read_bots_evidence((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string());
+  ASSERT_GT(bots.beliefs.size(), 1'000u);
+  std::set<std::uint32_t> sizes;
+  for (const BotsEvidence::Belief& belief : bots.beliefs) sizes.insert(belief.bytes);
+  EXPECT_LE(*sizes.rbegin(), 16u) << "two f32, and a bat's count of keys";
+  EXPECT_EQ(std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes == 8u; }), std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
+  EXPECT_GT(*record.truth.wasted_bytes_fraction, 0.5) << "each sees a twentieth of the field";
 }
 
 /// Under a budget that holds less than what enters, a player hears that somebody came long before he hears where: until then he holds nothing.

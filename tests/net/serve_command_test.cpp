@@ -159,7 +159,7 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     ASSERT_TRUE(server.ending()) << server.last_words();
     const nlohmann::json told = nlohmann::json::parse(std::ifstream(report));
     EXPECT_EQ(told.at("time_managed"), is_managed);
-    EXPECT_EQ(told.at("ticks"), loses_one ? 6001 : 61);
+    EXPECT_EQ(told.at("ticks"), loses_one ? 6000 : 60);
     EXPECT_EQ(told.at("lost_federates"), loses_one ? 3 : 0);
     hashes.push_back(told.at("state_hash"));
   }
