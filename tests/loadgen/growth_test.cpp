@@ -69,6 +69,36 @@ TEST(PowerFit, NothingIsFittedToWhatHasNoLogarithmOrNoSpread) {
   EXPECT_FALSE(two->exponent_low);
 }
 
+/// Three points on no line: one degree of freedom is left, for which Student's quantile is a tangent.
+TEST(PowerFit, AnIntervalHasAsManyDegreesOfFreedomAsThereArePointsLessTwo) {
+  const double off = 0.2;
+  const auto fit = fit_power(std::vector<FitPoint>{{1.0, 1.0}, {std::exp(1.0), std::exp(off)}, {std::exp(2.0), 1.0}});
+  ASSERT_TRUE(fit && fit->exponent_low && fit->exponent_high);
+  EXPECT_NEAR(fit->exponent, 0.0, 1e-12);
+  // Residuals -off/3, 2 off/3, -off/3 about the mean: their squares sum to 2 off^2/3; the logarithms of x vary by 2 about theirs.
+  const double half = std::tan(M_PI * 0.475) * std::sqrt(2.0 * off * off / 3.0 / 1.0 / 2.0);
+  EXPECT_NEAR(*fit->exponent_high, half, 1e-9);
+  EXPECT_NEAR(*fit->exponent_low, -half, 1e-9);
+  EXPECT_FALSE(fit->misfit_p) << "nothing is known of the scatter";
+  EXPECT_EQ(fit->points, 3u);
+}
+
+/// Two replications at each of three places: one degree of freedom for the bend and three for the scatter, whose distribution has a closed form.
+TEST(PowerFit, TheTestOfABendHasPlacesLessTwoAndPointsLessPlacesDegreesOfFreedom) {
+  const double bend = 0.2, scatter = 0.1;
+  std::vector<FitPoint> points;
+  for (int place = 0; place < 3; ++place)
+    for (const double sign : {-1.0, 1.0}) points.push_back({std::exp(place), std::exp((place == 1 ? bend : 0.0) + sign * scatter)});
+  const auto fit = fit_power(points);
+  ASSERT_TRUE(fit && fit->misfit_p);
+  const double f = (2.0 * 2.0 * bend * bend / 3.0 / 1.0) / (6.0 * scatter * scatter / 3.0), u = std::sqrt(f / 3.0);  // t = sqrt(f), three degrees of freedom
+  EXPECT_NEAR(*fit->misfit_p, 1.0 - 2.0 / M_PI * (u / (1.0 + u * u) + std::atan(u)), 1e-9);
+  const double residual = 4.0 * bend * bend / 3.0 + 6.0 * scatter * scatter;
+  // Student's quantile with four degrees of freedom, as in the test of the distributions.
+  const double alpha = 4 * 0.975 * 0.025, q = std::cos(std::acos(std::sqrt(alpha)) / 3) / std::sqrt(alpha), t = 2 * std::sqrt(q - 1);
+  EXPECT_NEAR(*fit->exponent_high - fit->exponent, t * std::sqrt(residual / 4.0 / 4.0), 1e-9);
+}
+
 std::vector<FitPoint> noisy(std::mt19937_64& random, double sigma, double (*law)(double)) {
   std::normal_distribution<double> noise(0.0, sigma);
   std::vector<FitPoint> points;

@@ -47,6 +47,28 @@ TEST(Histogram, PercentilesAreWithinAThousandthOfTheSortedSample) {
   }
 }
 
+/// Values step by a hundredth at the rank of each percentile and at the next, ten times the width of a bucket: neither neighbour of the right one is near it.
+TEST(Histogram, APercentileIsTheValueWhoseRankItIsAndNotItsNeighbours) {
+  for (const std::uint64_t count : {20u, 100u, 200u, 1'000u, 10'000u, 12'345u}) {
+    SCOPED_TRACE(count);
+    const auto rank_of = [count](std::uint64_t per_thousand) { return (per_thousand * count + 999) / 1'000; };  // rounded up
+    const auto value_s = [&](std::uint64_t rank) {
+      int steps = 0;
+      for (const std::uint64_t per_thousand : {500u, 900u, 950u, 990u, 999u}) steps += (rank >= rank_of(per_thousand)) + (rank > rank_of(per_thousand));
+      return 0.010 * std::pow(1.01, steps);
+    };
+    Histogram histogram;
+    for (std::uint64_t rank = count; rank >= 1; --rank) histogram.record(value_s(rank));
+    const Percentiles found = histogram.percentiles_ms();
+    const auto expect = [&](const std::optional<double>& percentile_ms, std::uint64_t per_thousand) {
+      EXPECT_EQ(percentile_ms.has_value(), count * (1'000 - per_thousand) >= 10'000u) << "ten lie beyond it";
+      if (!percentile_ms) return;
+      EXPECT_NEAR(*percentile_ms / (1e3 * value_s(rank_of(per_thousand))), 1.0, 1e-3) << per_thousand;
+    };
+    expect(found.p50, 500), expect(found.p90, 900), expect(found.p95, 950), expect(found.p99, 990), expect(found.p999, 999);
+  }
+}
+
 TEST(Histogram, PercentileIsNullUnlessTenSamplesLieBeyondIt) {
   const auto of_size = [](std::uint64_t count) {
     Histogram histogram;

@@ -31,6 +31,53 @@ TEST(RunRecord, RatesArePerClientAndSecondAndHeadersAreAdded) {
   EXPECT_FALSE(record.key_to_effect_ms.p90);
 }
 
+TEST(RunRecord, WhatIsNeitherStateNorKeyIsControl) {
+  nlohmann::json server = canned_server_report(cell);
+  const nlohmann::json bots = canned_bots_report(cell);
+  EXPECT_FALSE(judged(server, bots).truth.control_bytes_fraction);
+  server["state_bytes_sent"] = 300'000, server["key_bytes_received"] = 1'000;
+  const RunRecord record = judged(server, bots);
+  const double all = 400'000 + 4'000;
+  EXPECT_DOUBLE_EQ(*record.truth.control_bytes_fraction, (all - 300'000 - 1'000) / all);
+  EXPECT_DOUBLE_EQ(*record.traffic.updates, 300'000 / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(*record.traffic.keys, 1'000 / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(*record.traffic.interest, (all - 301'000) / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(*record.nodes.busiest_bytes_per_s, all / 2.0);
+}
+
+TEST(RunRecord, EachRateIsDividedByTheSpanOfWhoCountedIt) {
+  nlohmann::json server = canned_server_report(cell), bots = canned_bots_report(cell);
+  bots["measured_s"] = 4.0;
+  server["physics_events"] = 700;
+  bots["bytes_received_by_bot"] = {1, 3};
+  const RunRecord record = judged(server, bots);
+  EXPECT_DOUBLE_EQ(*record.wire_bytes_per_client_per_s, ((400'000 + 66 * 1'000) / 2.0 + (4'000 + 66 * 100) / 4.0) / 10.0);
+  EXPECT_DOUBLE_EQ(*record.segments_per_s, 1'000 / 2.0 + 100 / 4.0);
+  EXPECT_DOUBLE_EQ(*record.writes_per_s, 600 / 2.0);
+  EXPECT_DOUBLE_EQ(*record.nodes.busiest_events_per_s, 700 / 2.0);
+  EXPECT_DOUBLE_EQ(*record.truth.fairness_jain, 16.0 / 20.0);
+  EXPECT_EQ(record.update_age_samples, 2'000u);
+}
+
+/// What each process counted is held against its own kernel, in both directions, whichever of the two is the larger.
+TEST(RunRecord, EachOfTheFourCountsIsComparedWithTheKernels) {
+  const double clients = 10.0;
+  for (const bool is_server : {true, false})
+    for (const bool is_sent : {true, false})
+      for (const double sign : {-1.0, 1.0})
+        for (const double part : {0.99, 1.01}) {
+          nlohmann::json server = canned_server_report(cell), bots = canned_bots_report(cell);
+          nlohmann::json& report = is_server ? server : bots;
+          const double kernel = 1'000'000.0, limit = 0.01 * kernel + 128.0 * clients;
+          report[is_sent ? "kernel_bytes_sent" : "kernel_bytes_received"] = kernel;
+          report[is_sent ? "total_bytes_sent" : "total_bytes_received"] = kernel + sign * part * limit;
+          const std::string what = std::string(is_sent ? "sent" : "received") + " by the " + (is_server ? "server" : "bots") + ": ";
+          const std::string why = judged(server, bots).why_invalid;
+          if (part < 1.0) EXPECT_EQ(why, "") << what;
+          else EXPECT_THAT(why, testing::StartsWith(what));
+        }
+}
+
 TEST(RunRecord, ALineHasTheDocumentedKeysInOrder) {
   const auto line = to_json(judged(canned_server_report(cell), canned_bots_report(cell)));
   const std::vector<std::string> documented{

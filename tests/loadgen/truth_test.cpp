@@ -97,6 +97,21 @@ TEST(PositionErrors, RootMeanSquarePercentileAndMaximumAreThoseOfTheSample) {
   EXPECT_FALSE(few.figures().p99);
 }
 
+TEST(Percentiles, OfDurationsAreThoseWhoseRankTheyAre) {
+  std::vector<double> durations_s;
+  for (int i = 10'000; i >= 1; --i) durations_s.push_back(1e-3 * i);
+  const Percentiles ms = percentiles_ms(durations_s), us = percentiles_us(durations_s);
+  EXPECT_DOUBLE_EQ(*ms.p50, 5'000.0);
+  EXPECT_DOUBLE_EQ(*ms.p90, 9'000.0);
+  EXPECT_DOUBLE_EQ(*ms.p95, 9'500.0);
+  EXPECT_DOUBLE_EQ(*ms.p99, 9'900.0);
+  EXPECT_DOUBLE_EQ(*ms.p999, 9'990.0);
+  EXPECT_DOUBLE_EQ(*ms.max, 10'000.0);
+  EXPECT_DOUBLE_EQ(*us.p50, 5e6);
+  durations_s.resize(19);
+  EXPECT_FALSE(percentiles_ms(durations_s).p50) << "nine lie beyond it";
+}
+
 TEST(ScopeHistory, KnowsWhatWasInScopeAtAnInstant) {
   ScopeHistory history({{0.1, 4, true}, {0.2, 7, true}, {0.2, 4, true}, {0.3, 4, false}});
   std::vector<std::uint32_t> entities;
@@ -289,6 +304,97 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   EXPECT_EQ(judged().missed_interactions, contacts - with_still);
   bots_.bots[0].changes.pop_back();  // never heard of the still puck
   EXPECT_EQ(judged().missed_interactions, contacts);
+}
+
+/// The bat is pushed into the puck again and again; only contacts from the beginning of the measured span up to its end count, that itself excluded.
+TEST_F(TinyRink, ContactsOfTheWarmUpAndAfterTheEndAreNotCounted) {
+  server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
+  game::Game game(game::chosen_scene(server_.choice));
+  game.record_events(true);
+  for (const game::InputEvent& key : server_.keys) game.submit(key);
+  std::vector<double> instants;
+  for (int i = 1; i <= 4000; ++i) {
+    game.advance(1e-3 * i);
+    for (const physics::Event& impact : game.events())
+      if (physics::is_impact(impact.kind) && impact.other && (impact.body.index == bat || impact.other->index == bat) && (instants.empty() || impact.time > instants.back())) instants.push_back(impact.time);
+  }
+  server_.state_hash = game.hash();
+  ASSERT_GE(instants.size(), 3u);
+  server_.from_s = instants[1], server_.until_s = instants.back();
+  EXPECT_EQ(judged().interactions, instants.size() - 2) << "neither the first nor the one at the end";
+  server_.from_s = std::nextafter(instants[1], 4.0);
+  EXPECT_EQ(judged().interactions, instants.size() - 3);
+  bots_.bots[0].changes.pop_back();  // never heard of the puck
+  EXPECT_EQ(judged().missed_interactions, judged().interactions);
+}
+
+TEST_F(TinyRink, ChurnIsThatOfTheSpanPerWatchedPlayerAndSecond) {
+  for (const double instant_s : {0.5, 1.5, 2.5, 3.5}) bots_.bots[0].changes.push_back({instant_s, 100 + flying, std::fmod(instant_s, 2.0) < 1.0});
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 4.0 / 4.0);
+  server_.from_s = 1.0, server_.until_s = 3.5;
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5) << "at 1.5 and 2.5 s; what happens at the end is after it";
+  bots_.bots.push_back({100 + far, {}});  // another player, at rest where nothing comes by
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5 / 2.0);
+}
+
+/// A puck slides into the left goal, lies there for the delay, and is put back between two ticks, far from where it was.
+TEST_F(TinyRink, APuckThatScoredCountsWhereItLeftPlayUntilTheFirstTickAfterItsFaceOff) {
+  std::ofstream(scene_file_) << R"(
+[field]
+length = 4.0
+width = 2.0
+goal_width = 1.0
+material = "ice"
+[materials]
+names = ["ice"]
+restitution = 1.0
+[drag]
+pucks = 0.0
+bats = 0.0
+[match]
+goals_to_win = 5
+face_off_delay = 1.03
+face_off_distance = 0.25
+[[bat]]
+position = [3.5, 1.0]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[bat]]
+position = [3.5, 0.3]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[puck]]
+position = [1.0, 1.0]
+velocity = [-1.0, 0.0]
+radius = 0.1
+material = "ice"
+)";
+  constexpr std::uint32_t puck = 2;
+  game::Game game(game::chosen_scene(server_.choice));
+  std::optional<double> scored_s, back_s;
+  Vector2 left_play;
+  for (int ms = 0; ms <= 4000 && !back_s; ++ms) {
+    game.advance(1e-3 * ms);
+    const bool is_away = !game.world().is_in_play({puck});
+    if (is_away && !scored_s) scored_s = 1e-3 * ms, left_play = game.position({puck});
+    if (!is_away && scored_s) back_s = 1e-3 * ms;
+  }
+  ASSERT_TRUE(scored_s && back_s);
+  ASSERT_NEAR(*back_s - *scored_s, 1.03, 2e-3);
+  const Vector2 face_off = game.position({puck});
+  ASSERT_GT((face_off - left_play).norm(), 0.9);
+  const double tick_s = 1.0 / server_.rate_hz, first_tick_s = std::ceil(*back_s / tick_s) * tick_s;
+  ASSERT_GT(first_tick_s - *back_s, 0.01) << "it comes back between two ticks";
+  Replay replay(server_, {RelevanceArea::Shape::square, view_half_side});
+  const auto centre_at = [&](double instant_s) {
+    replay.advance(instant_s);
+    replay.look_around();
+    return replay.centre(puck);
+  };
+  EXPECT_NEAR((centre_at(*scored_s + 0.01) - left_play).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((centre_at(*back_s + 1e-3) - left_play).norm(), 0.0, 1e-9) << "put back, and not announced";
+  EXPECT_NEAR((centre_at(first_tick_s - 1e-3) - left_play).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((centre_at(first_tick_s) - face_off).norm(), 0.0, 0.1) << "the first tick that can tell of it";
 }
 
 TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {
