@@ -40,7 +40,7 @@ bool has_several_modes(std::span<const RunRecord> runs) {
 
 std::string modes_table(std::span<const RunRecord> runs) {
   if (!has_several_modes(runs)) return {};
-  std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s both ways,\n"
+  std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s of payload both ways,\n"
                      "events/s and processor time, the mean node's; a key's effect, ms; and the fraction of what concerns a player that it knows. Means over replications, and below them half\n"
                      "the width of their 95 % intervals\n";
   std::vector<SummaryRow> rows = summarise(runs);

@@ -151,7 +151,10 @@ std::string invalid_text(std::span<const RunRecord> runs) {
 }
 
 std::string explanation(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
-  std::string text = "down: payload to each client; times less: than " + baseline.scheme + " with " + baseline.policy + ", 95 % interval over seeds;\n";
+  const bool has_comparisons = std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return row.scheme != baseline.scheme || row.policy != baseline.policy; });
+  std::string text = "down: payload to each client; ";
+  text += has_comparisons ? "times less: than " + baseline.scheme + " with " + baseline.policy + ", 95 % interval over seeds;\n"
+                          : "nothing is compared: all cells are of the baseline, " + baseline.scheme + " with " + baseline.policy + ";\n";
   const auto any = [&rows](Difference difference) {
     return std::any_of(rows.begin(), rows.end(), [difference](const SummaryRow& row) { return row.ratio(payload) && row.ratio(payload)->difference() == difference; });
   };

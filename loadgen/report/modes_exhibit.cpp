@@ -27,8 +27,13 @@ struct Shown {
 };
 
 constexpr Shown against_clients[] = {
-    {"busiest-node-bytes", "The busiest node", "bytes per second, both ways", "What one machine's link must carry: the server's, or that of the busiest peer.",
+    {"busiest-node-bytes", "The busiest node", "payload, bytes per second, both ways", "Payload of the server's link, or of the busiest peer's, without headers, of which many small messages have more: as the next plot shows.",
      [](const RunRecord& run) { return run.nodes.busiest_bytes_per_s; }},
+    {"link-bytes", "A node's link with headers", "bytes per second, both ways", "What one machine's link must carry, 66 bytes of headers for each segment included: the server's, or that of a peer in the mean.",
+     [](const RunRecord& run) -> std::optional<double> {
+       if (!run.wire_bytes_per_client_per_s) return std::nullopt;
+       return *run.wire_bytes_per_client_per_s * (run.cell.mode == peer_mode ? 1.0 : run.cell.clients);
+     }},
     {"busiest-node-events", "Physics of the busiest node", "events per second", "What one machine must compute: the whole, or a part with the ghosts around it.",
      [](const RunRecord& run) { return run.nodes.busiest_events_per_s; }},
     {"busiest-node-cpu", "Processor time of the busiest node", "s", "From start to end, by the kernel.", [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
