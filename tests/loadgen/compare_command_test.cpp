@@ -143,6 +143,30 @@ TEST_F(CompareCommandTest, RunsOfAnotherExperimentAreGoneOnWithOnlyIfForced) {
   EXPECT_THAT(errors_, HasSubstr("runs.jsonl:1: not JSON"));
 }
 
+/// Reports of two clients hold whatever is asked of 99 % of the ticks and of ages above 10 ms.
+TEST_F(CompareCommandTest, ASearchForSaturationHasItsOwnOptionsAndFiles) {
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--saturate", "--most", "2", "--resolution", "0.5", "--on-time", "1", "--age-ms", "11"})), 0) << errors_;
+  EXPECT_THAT(errors_, HasSubstr("2 clients hold: 100 % of ticks on time"));
+  const nlohmann::json found = nlohmann::json::parse(content("out/saturation.json"));
+  EXPECT_THAT(found.dump(), testing::AllOf(HasSubstr("\"held_clients\":2"), HasSubstr("11.0"), HasSubstr("0.5")));
+  EXPECT_THAT(content("out/saturation.csv"), HasSubstr("client-server,grid,periodic,"));
+  EXPECT_THAT(content("out/report.html"), HasSubstr("at least 2"));
+  exit_status_of(with("small.toml", {"--force", "--saturate", "--most", "2", "--age-ms", "9"}));
+  EXPECT_THAT(errors_, HasSubstr("age: p99 10 ms"));
+}
+
+TEST_F(CompareCommandTest, OptionsOfTheSearchNeedTheSearchAndExcludeWhatItCannotDo) {
+  for (const char* option : {"--on-time", "--age-ms", "--resolution", "--most"}) {
+    EXPECT_EQ(exit_status_of(with("small.toml", {option, "1"})), 2) << option;
+    EXPECT_THAT(errors_, testing::AllOf(HasSubstr(option), HasSubstr("--saturate")));
+    EXPECT_EQ(exit_status_of(with("small.toml", {"--saturate", option, "-1"})), 2) << option;
+  }
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--saturate", "--dry-run"})), 2);
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--saturate", "--resume"})), 2);
+  EXPECT_EQ(exit_status_of(with("small.toml", {"--saturate", "--assert", "filter_recall > 0"})), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(CompareCommandTest, ADryRunTouchesNothing) {
   EXPECT_EQ(exit_status_of(with("small.toml", {"--dry-run"})), 0) << errors_;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
