@@ -79,12 +79,22 @@ void Application::do_wish(const MenuWish& wish) {
   if ((wish.kind == Kind::full_screen || wish.kind == Kind::settings_changed) && surroundings_.save_settings) surroundings_.save_settings(settings_);
 }
 
-void Application::hear(const WindowEvent& event) {
+EventQueue::Pace Application::pace() const {
+  if (menu_.screen() == Menu::Screen::none) return EventQueue::Pace::play;
+  return menu_.is_ready() ? EventQueue::Pace::menu : EventQueue::Pace::opening;
+}
+
+/// What this drawing is to see of what was done.
+void Application::hear_events(Interface& interface) {
   using Kind = WindowEvent::Kind;
-  if (event.kind == Kind::close) wants_to_quit_ = true;
-  else if (event.kind == Kind::key) hear_key(event.key, event.is_down);
-  else if (event.kind == Kind::focus_lost) release_all();
-  else if (menu_.screen() == Menu::Screen::none) hear_mouse(event);
+  events_.begin_frame();
+  while (const std::optional<WindowEvent> event = events_.take(pace())) {
+    interface.hear(*event);
+    if (event->kind == Kind::close) wants_to_quit_ = true;
+    else if (event->kind == Kind::key) hear_key(event->key, event->is_down);
+    else if (event->kind == Kind::focus_lost) release_all();
+    else if (menu_.screen() == Menu::Screen::none) hear_mouse(*event);
+  }
 }
 
 void Application::hear_key(KeyCode code, bool is_down) {
@@ -161,11 +171,11 @@ bool Application::hear_replay(KeyCode code) {
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
   if (event.kind == Kind::scroll) view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
-  else if (event.kind == Kind::mouse_button && event.is_down) is_dragging_ = true, dragged_ = 0.0;
-  else if (event.kind == Kind::mouse_button && std::exchange(is_dragging_, false) && dragged_ < click_reach) click();
+  else if (event.kind == Kind::mouse_button && event.is_down) mouse_.is_dragging = true, mouse_.dragged = 0.0;
+  else if (event.kind == Kind::mouse_button && std::exchange(mouse_.is_dragging, false) && mouse_.dragged < click_reach) click();
   else if (event.kind == Kind::mouse_move) {
-    if (is_dragging_) drag(event.x - mouse_x_, event.y - mouse_y_);
-    mouse_x_ = event.x, mouse_y_ = event.y;
+    if (mouse_.is_dragging) drag(event.x - mouse_.x, event.y - mouse_.y);
+    mouse_.x = event.x, mouse_.y = event.y;
   }
 }
 
@@ -177,8 +187,8 @@ Sight Application::seen() const {
 
 /// `across`, `down`: pixels.
 void Application::drag(double across, double down) {
-  dragged_ += std::abs(across) + std::abs(down);
-  if (dragged_ < click_reach) return;
+  mouse_.dragged += std::abs(across) + std::abs(down);
+  if (mouse_.dragged < click_reach) return;
   const Sight sight = seen();
   const physics::Field& field = match_->sight().field;
   view_.centre.x() -= 2.0 * across / size_.width * static_cast<double>(sight.right().x()) / field.length;
@@ -190,7 +200,7 @@ void Application::drag(double across, double down) {
 void Application::click() {
   if (!match_->sight().interest || view_.viewpoint != Viewpoint::above) return;
   const Sight sight = seen();
-  const Eigen::Vector2f at(static_cast<float>(2.0 * mouse_x_ / size_.width - 1.0), static_cast<float>(1.0 - 2.0 * mouse_y_ / size_.height));
+  const Eigen::Vector2f at(static_cast<float>(2.0 * mouse_.x / size_.width - 1.0), static_cast<float>(1.0 - 2.0 * mouse_.y / size_.height));
   const double pixel = 2.0 * static_cast<double>(sight.up().y()) / size_.height;
   if (const auto thing = thing_at(match_->sight(), sight.on_table(at).cast<double>(), click_reach * pixel)) interest_.picked = thing;
 }
@@ -295,6 +305,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
 
 void Application::draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s) {
   size_ = size;
+  hear_events(interface);
   if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr) match_->inspect(asked->id);
   match_->advance(now_s);
   follow_phase();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "game/view/event_queue.h"
 #include "game/view/interest_overlay.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
@@ -37,7 +38,8 @@ class Application {
 
   void show_figures() { shows_figures_ = true; }
 
-  void hear(const WindowEvent& event);
+  /// Takes effect when the next instant is drawn, or one after it: each press is seen by one drawing at least (event_queue.h).
+  void hear(const WindowEvent& event) { events_.push(event); }
   /// Draws the instant `now_s` [s], which never falls; an Interface, and so a context of OpenGL, must exist.
   /// Without a renderer the instant passes unseen: nothing is drawn.
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas, double now_s);
@@ -54,8 +56,15 @@ class Application {
     game::Key key;
   };
 
+  struct Mouse {
+    double x = 0.0, y = 0.0, dragged = 0.0;  ///< pixels
+    bool is_dragging = false;
+  };
+
   void start(const MatchWish& wish);
   void do_wish(const MenuWish& wish);
+  EventQueue::Pace pace() const;
+  void hear_events(Interface& interface);
   void hear_key(KeyCode code, bool is_down);
   bool hear_command(KeyCode code);
   bool hear_replay(KeyCode code);
@@ -77,6 +86,7 @@ class Application {
   Surroundings surroundings_;
   Settings settings_;
   Menu menu_;
+  EventQueue events_;
   MatchWish wish_;
   std::unique_ptr<MatchSource> match_;
   std::vector<HeldKey> held_;
@@ -84,9 +94,9 @@ class Application {
   ViewChoice view_;
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
-  bool shows_figures_ = false, follows_ = false, is_dragging_ = false;
+  bool shows_figures_ = false, follows_ = false;
   bool is_told_ = false;  ///< what a replay has to say of itself
-  double mouse_x_ = 0.0, mouse_y_ = 0.0, dragged_ = 0.0;  ///< pixels
+  Mouse mouse_;
   WindowSize size_;
   double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
   bool wants_to_quit_ = false;

@@ -26,6 +26,7 @@ void Menu::open(Screen screen) {
   if (screen == Screen::settings) back_ = screen_;
   screen_ = screen;
   is_fresh_ = true;
+  drawn_ = 0;
   binding_.reset();
 }
 
@@ -92,6 +93,7 @@ void Menu::draw_trouble() const {
 
 MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchSight& sight) {
   MenuWish wish;
+  ++drawn_;
   interface_ = &interface;
   unit_ = interface.unit();
   if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused) draw_title();

@@ -34,6 +34,8 @@ class Menu {
   enum class Screen : std::uint8_t { none, main, bot, host, join, watch, settings, paused, over };
 
   Screen screen() const { return screen_; }
+  /// Whether the screen has been drawn so often that its first button has the focus: a key before that would go nowhere.
+  bool is_ready() const { return drawn_ >= 2; }
   void open(Screen screen);
   /// Back to the main menu with what went wrong.
   void explain(const std::string& trouble);
@@ -68,6 +70,7 @@ class Menu {
   std::string address_ = "127.0.0.1:4711", port_ = "4711";
   std::optional<Binding> binding_;
   bool is_fresh_ = true;  ///< the first widget of this screen is to have the focus
+  unsigned drawn_ = 0;    ///< how often, since this screen was opened
   float unit_ = 1.0f;
   const Interface* interface_ = nullptr;
 };

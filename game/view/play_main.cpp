@@ -246,10 +246,10 @@ void Process::run_in_window(const view::WindowSize& size) {
   bool is_ended = false;
   while (!application_->wants_to_quit() && !is_ended && !game::is_interrupted) {
     const double begin_s = now_s();
-    for (const view::WindowEvent& event : window.events()) interface_->hear(event), application_->hear(event);
+    for (const view::WindowEvent& event : window.events()) application_->hear(event);
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
     for (const view::ScriptStep& step : due)
-      for (const view::WindowEvent& event : step.events) interface_->hear(event), application_->hear(event);
+      for (const view::WindowEvent& event : step.events) application_->hear(event);
     // One that is too small to be seen goes on unseen: a match over a network must not fall silent.
     const view::WindowSize now_size = window.size();
     const bool is_seen = now_size.width > 0 && now_size.height > 0;
@@ -279,7 +279,7 @@ void Process::run_offscreen(const view::WindowSize& size) {
     const auto due = view::due_steps(script_, next_step_, now);
     bool is_seen = false;
     for (const view::ScriptStep& step : due) {
-      for (const view::WindowEvent& event : step.events) interface_->hear(event), application_->hear(event);
+      for (const view::WindowEvent& event : step.events) application_->hear(event);
       is_seen = is_seen || !step.picture.empty();
       is_ended = is_ended || step.is_end;
     }

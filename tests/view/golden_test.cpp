@@ -8,6 +8,7 @@
 
 #include "game/control/key_log.h"
 #include "game/control/playing.h"
+#include "game/match/local_match.h"
 #include "game/match/replay_match.h"
 #include "game/model/scene_file.h"
 #include "game/view/application.h"
@@ -131,9 +132,11 @@ class GoldenImages : public ::testing::Test {
       for (int i = 0; i < 3; ++i) frame(false);
     }
   }
-  void hear(const WindowEvent& event) {
-    interface_->hear(event);
-    application_->hear(event);
+  void hear(const WindowEvent& event) { application_->hear(event); }
+  /// Down and up before anything is drawn, as a person's tap is where a frame takes long.
+  void tap_within_a_frame(const char* key) {
+    for (const bool is_down : {true, false})
+      hear({.kind = WindowEvent::Kind::key, .key = key_code_from_name(key).value(), .is_down = is_down});
   }
 
   /// Other drivers round and sample otherwise: an edge here and there may differ, not a place or a colour.
@@ -181,6 +184,47 @@ TEST_F(GoldenImages, OfTheMenu) {
   expect_golden("settings");
   application_->explain("play.toml:3: there is no key 'hyper' for up; it stays 'w'");
   expect_golden("trouble");
+}
+
+/// All is done between two frames; the frames after it see one thing after the other.
+TEST_F(GoldenImages, OfScreensThatAreReachedByTapsWithinOneFrame) {
+  const auto tap_all = [this](std::initializer_list<const char*> keys) {
+    for (const char* key : keys) tap_within_a_frame(key);
+    for (int i = 0; i < 30; ++i) frame(false);
+  };
+  for (int i = 0; i < 3; ++i) frame(false);
+  tap_all({"down", "enter"});
+  expect_golden("strength");
+  tap_all({"escape", "down", "down", "down", "enter"});
+  expect_golden("join");
+  tap_all({"escape", "down", "down", "down", "down", "down", "enter"});
+  expect_golden("settings");
+}
+
+TEST_F(GoldenImages, AreLeftForAMatchByAClickWithinOneFrame) {
+  for (int i = 0; i < 3; ++i) frame(false);
+  hear({.kind = WindowEvent::Kind::mouse_move, .x = 240.0, .y = 96.0});  // "Two players"
+  hear({.kind = WindowEvent::Kind::mouse_button, .is_down = true});
+  hear({.kind = WindowEvent::Kind::mouse_button, .is_down = false});
+  hear({.kind = WindowEvent::Kind::mouse_move, .x = 5.0, .y = 5.0});
+  for (int i = 0; i < 3; ++i) frame(false);
+  EXPECT_FALSE(application_->is_in_menu());
+}
+
+/// A frame's time of thrust a from rest makes at least half of a dt of velocity, whatever the drag.
+TEST_F(GoldenImages, MoveTheBatOfAKeyThatIsTappedWithinOneFrame) {
+  const game::Scene scene = game::load_scene("match");
+  const game::LocalMatchSettings settings{.times = {.countdown_s = 0.0}};
+  const auto make_match = [&](const MatchWish&) { return std::make_unique<game::LocalMatch>(scene, settings); };
+  application_ = std::make_unique<Application>(Surroundings{.make_match = make_match}, shared_camera());
+  application_->play({.kind = MatchWish::Kind::two, .address = {}});
+  application_->set_viewpoint(Viewpoint::side);
+  for (int i = 0; i < 3; ++i) frame(false);
+  tap_within_a_frame("d");
+  for (int i = 0; i < 2; ++i) frame(false);
+  const auto bat = std::ranges::find(application_->sight().things, game::Team::left, &Thing::team);
+  ASSERT_NE(bat, application_->sight().things.end());
+  EXPECT_GT(bat->velocity.x(), 0.5 * scene.bodies.bats[0].thrust / 60.0);
 }
 
 TEST_F(GoldenImages, OfAMatchFromEveryViewpoint) {
