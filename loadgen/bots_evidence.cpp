@@ -57,7 +57,7 @@ Json line_of(const BotsEvidence& evidence, const BotsEvidence::Sample& sample) {
 BotsEvidence read_lines(game::EvidenceReader& reader) {
   BotsEvidence evidence;
   const nlohmann::json header = reader.next();
-  if (header.value("rink-bots-evidence", 0) != version) reader.refuse("the bots' evidence of version " + std::to_string(version));
+  reader.require_version(header.value("rink-bots-evidence", 0), version, "the bots' evidence");
   evidence.clients = header.at("clients");
   evidence.from_s = header.at("from_s");
   evidence.until_s = header.at("until_s");

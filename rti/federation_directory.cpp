@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "rti/refusal_words.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
 
@@ -144,16 +145,17 @@ bool FederationDirectory::lead(ConnectionId id, Bytes frame) {
   Reader reader(frame.subspan(1));
   JoinMessage message;
   if (!exchange(reader, message)) return false;
-  if (message.version != protocol_version) return refuse(id, Refusal::wrong_version), true;
+  if (message.version != protocol_version)
+    return refuse(id, Refusal::wrong_version, refused_version(message.version, protocol_version)), true;
   FederationExecution* execution = find(message.federation);
-  if (execution == nullptr) return refuse(id, Refusal::wrong_federation), true;
+  if (execution == nullptr) return refuse(id, Refusal::wrong_federation, to_string(Refusal::wrong_federation)), true;
   connections_[id].execution = execution;
   execution->connect(id);
   return true;
 }
 
-void FederationDirectory::refuse(ConnectionId id, Refusal refusal) {
-  answer(id, RefusedMessage{static_cast<std::uint8_t>(refusal), to_string(refusal)});
+void FederationDirectory::refuse(ConnectionId id, Refusal refusal, const std::string& why) {
+  answer(id, RefusedMessage{static_cast<std::uint8_t>(refusal), why});
   drop(id);
 }
 

@@ -64,7 +64,7 @@ class FederationDirectory final : public CentralComponent {
   bool take_waiting(ConnectionId id);
   bool take_frame(ConnectionId id, Bytes frame);
   bool lead(ConnectionId id, Bytes frame);
-  void refuse(ConnectionId id, Refusal refusal);
+  void refuse(ConnectionId id, Refusal refusal, const std::string& why);
   void drop(ConnectionId id);
   void answer_queries(Outlet& outlet);
   template <class Message>

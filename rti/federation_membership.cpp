@@ -7,6 +7,7 @@
 #include "rti/federation_time.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/groups/member_lists.h"
+#include "rti/refusal_words.h"
 #include "rti/wire/fom_messages.h"
 
 namespace rink::rti {
@@ -83,8 +84,10 @@ void FederationExecution::Parts::expel(ConnectionId connection, Violation violat
 FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection, Reader& reader) {
   JoinMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
-  if (message.version != protocol_version) return refuse(connection, Refusal::wrong_version), std::nullopt;
-  if (message.fom_hash != fom_.hash()) return refuse(connection, Refusal::wrong_fom), std::nullopt;
+  if (message.version != protocol_version)
+    return refuse(connection, Refusal::wrong_version, refused_version(message.version, protocol_version)), std::nullopt;
+  if (message.fom_hash != fom_.hash())
+    return refuse(connection, Refusal::wrong_fom, refused_fom(message.fom_hash, fom_.hash())), std::nullopt;
   if (message.federation != settings_.federation) return refuse(connection, Refusal::wrong_federation), std::nullopt;
   if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
   if (!settings_.members.empty() && std::ranges::find(settings_.members, message.name) == settings_.members.end()) return refuse(connection, Refusal::not_listed), std::nullopt;
@@ -95,19 +98,19 @@ FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionI
   return std::nullopt;
 }
 
-void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal) {
-  expel(connection, Violation::refused, ResignReason::misbehaved, to_string(refusal));
-  if (refusal == Refusal::wrong_fom) return tell_difference();
-  farewells_.back().bytes = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), to_string(refusal)});
+void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal, const std::string& why) {
+  expel(connection, Violation::refused, ResignReason::misbehaved, why);
+  std::vector<std::byte>& bytes = farewells_.back().bytes;
+  if (refusal == Refusal::wrong_fom) bytes = framed_digest();
+  const std::vector<std::byte> refused = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), why});
+  bytes.insert(bytes.end(), refused.begin(), refused.end());
 }
 
-/// Refuses for another model; the federate finds out from the digest where its own differs.
-void FederationExecution::Parts::tell_difference() {
-  std::vector<std::byte>& bytes = farewells_.back().bytes;
+/// The federate finds out from the digest where its own model differs; nothing of a model too large for one.
+std::vector<std::byte> FederationExecution::Parts::framed_digest() const {
   const std::vector<FomDigestEntry> entries = digest(fom_);
-  if (entries.size() <= FomDigestMessage::count_max) bytes = framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()), std::as_bytes(std::span(entries))});
-  const std::vector<std::byte> refused = framed(RefusedMessage{static_cast<std::uint8_t>(Refusal::wrong_fom), to_string(Refusal::wrong_fom)});
-  bytes.insert(bytes.end(), refused.begin(), refused.end());
+  if (entries.size() > FomDigestMessage::count_max) return {};
+  return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()), std::as_bytes(std::span(entries))});
 }
 
 /// Nothing if it has left, or there was none of that handle.

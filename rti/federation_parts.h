@@ -103,8 +103,9 @@ class FederationExecution::Parts {
   void disconnect(ConnectionId connection, std::string_view why);
   void advance_clock(double now);
   Outcome join(ConnectionId connection, Reader& reader);
-  void refuse(ConnectionId connection, Refusal refusal);
-  void tell_difference();
+  void refuse(ConnectionId connection, Refusal refusal) { refuse(connection, refusal, to_string(refusal)); }
+  void refuse(ConnectionId connection, Refusal refusal, const std::string& why);
+  std::vector<std::byte> framed_digest() const;
   void admit(ConnectionId connection, const JoinMessage& message);
   std::uint32_t take_federate_slot();
   std::optional<std::uint32_t> joined_slot(FederateHandle federate) const;

@@ -53,7 +53,7 @@ Json header_of(const ServerEvidence& evidence) {
 }
 
 void read_header(const nlohmann::json& line, ServerEvidence& evidence, const EvidenceReader& reader) {
-  if (line.value("rink-server-evidence", 0) != version) reader.refuse("a server's evidence of version " + std::to_string(version));
+  reader.require_version(line.value("rink-server-evidence", 0), version, "a server's evidence");
   evidence.choice = {.scene = line.at("scene"), .bats = line.at("bats"), .bat_count = line.at("bat_count"), .puck_count = line.at("puck_count"), .seed = line.at("seed")};
   evidence.scheme = line.at("scheme");
   evidence.policy = line.at("policy");

@@ -51,6 +51,11 @@ nlohmann::json EvidenceReader::next() {
   return value;
 }
 
+void EvidenceReader::require_version(int found, int wanted, const std::string& what) const {
+  if (found == wanted) return;
+  refuse(what + " of version " + std::to_string(wanted) + ", found " + (found == 0 ? "something else" : "version " + std::to_string(found)));
+}
+
 void EvidenceReader::refuse(const std::string& expected) const { throw EvidenceError(file_ + ":" + std::to_string(read_) + ": expected " + expected); }
 
 }  // namespace rink::game

@@ -41,7 +41,8 @@ class EvidenceReader {
   nlohmann::json next();
   bool is_at_end() const { return read_ == lines_; }
   [[noreturn]] void refuse(const std::string& expected) const;
-
+  /// Refuses `what` of another version than the wanted one, and names both; 0 stands for a file that names none.
+  void require_version(int found, int wanted, const std::string& what) const;
 
  private:
   std::string file_, text_;

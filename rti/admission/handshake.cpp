@@ -74,7 +74,8 @@ void Handshake::take_hello(Bytes body) {
   Reader reader(body);
   HelloMessage hello;
   if (!exchange(reader, hello) || (hello.version == protocol_version && !reader.is_at_end())) return fail("no hello");
-  if (hello.version != protocol_version) return refuse("other version");
+  if (hello.version != protocol_version)
+    return refuse("other version: " + std::to_string(hello.version) + ", the RTI speaks " + std::to_string(protocol_version));
   if (hello.federation != federation_) return refuse("other federation");
   theirs_ = hello.nonce;
   say(ChallengeMessage{ours_});

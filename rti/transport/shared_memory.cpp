@@ -23,11 +23,12 @@ namespace rink::rti {
 namespace {
 
 constexpr std::uint32_t memory_magic = 0x4d534b52;  ///< "RKSM"
+constexpr std::uint32_t memory_version = 1;
 constexpr std::size_t ring_min = 4096, ring_max = 1u << 30, head_size = 4096;
 
 /// What the server says when it hands over the memory.
 struct Greeting {
-  std::uint32_t magic = memory_magic, version = 1;
+  std::uint32_t magic = memory_magic, version = memory_version;
   std::uint64_t ring_size = 0;
 };
 
@@ -179,7 +180,11 @@ void SharedMemoryTransport::Core::take_memory(ConnectionId connection) {
     file = File(number);
   }
   struct stat is {};
-  const bool fits = size == sizeof greeting && greeting.magic == memory_magic && greeting.version == 1 && std::has_single_bit(greeting.ring_size) && greeting.ring_size >= ring_min &&
+  if (size == sizeof greeting && greeting.magic == memory_magic && greeting.version != memory_version)
+    return end(connection, CloseReason::failed,
+               "'" + peers_[connection]->place + "' lays out shared memory by version " + std::to_string(greeting.version) +
+                   ", here it is version " + std::to_string(memory_version));
+  const bool fits = size == sizeof greeting && greeting.magic == memory_magic && std::has_single_bit(greeting.ring_size) && greeting.ring_size >= ring_min &&
                     greeting.ring_size <= ring_max && file && ::fstat(file.number(), &is) == 0 && static_cast<std::size_t>(is.st_size) == segment_size(greeting.ring_size) &&
                     is_sealed(file.number());
   Mapping memory = fits ? Mapping(file.number(), segment_size(greeting.ring_size)) : Mapping();

@@ -11,6 +11,9 @@
 
 #include "areas.h"
 #include "game/model/random_stream.h"
+#include "game/net/evidence.h"
+#include "game/net/evidence_lines.h"
+#include "game/net/peer/peer_evidence.h"
 #include "loadgen/truth/classification.h"
 #include "loadgen/truth/replay.h"
 #include "loadgen/truth/scope_history.h"
@@ -426,6 +429,27 @@ TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
   EXPECT_EQ(bots.beliefs[0].displayed, Vector2(1.5, -2.5));
   EXPECT_EQ(bots.bots.at(0).changes.size(), 2u);
   EXPECT_EQ(bots.samples.at(0).matched_s, 0.6);
+}
+
+TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
+  const auto words_of = [&](const char* key, const auto& read) {
+    const std::string file = (folder_ / "other.jsonl").string();
+    game::EvidenceWriter writer(file);
+    writer.line({{key, 2}});
+    writer.finish();
+    try {
+      read(file);
+    } catch (const game::EvidenceError& error) {
+      return std::string(error.what());
+    }
+    return std::string("(accepted)");
+  };
+  EXPECT_THAT(words_of("rink-server-evidence", game::read_server_evidence),
+              HasSubstr("other.jsonl:1: expected a server's evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence), HasSubstr("expected a peer's evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence), HasSubstr("expected the bots' evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_evidence),
+              HasSubstr("expected a server's evidence of version 1, found something else"));
 }
 
 TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {

@@ -68,7 +68,11 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
   hello[frame_header_size + 1] ^= std::byte{1};
   Bytes bytes = hello;
   EXPECT_EQ(rti.receive(bytes), State::failed);
-  EXPECT_EQ(rti.why(), "other version");
+  const std::string both = "other version: " + std::to_string(protocol_version ^ 1) + ", the RTI speaks " + std::to_string(protocol_version);
+  EXPECT_EQ(rti.why(), both);
+  Bytes answer = rti.outgoing();
+  EXPECT_EQ(federate.receive(answer), State::failed);
+  EXPECT_EQ(federate.why(), "the RTI refuses us: " + both);
 }
 
 TEST(Admission, TheFederateTurnsAwayFromAnRtiWithoutTheKey) {

@@ -66,6 +66,25 @@ TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
   old.join("rink", "old", "tester");
   EXPECT_TRUE(old.receive(bare.sent[1]));
   EXPECT_EQ(heard.refusal, Refusal::wrong_version);
+  const std::string both = "the federate speaks version " + std::to_string(protocol_version + 1) + ", the RTI version " +
+                           std::to_string(protocol_version);
+  EXPECT_NE(heard.log.back().find(both), std::string::npos) << heard.log.back();
+  EXPECT_NE(bare.dropped.at(1).find(both), std::string::npos) << bare.dropped.at(1);
+}
+
+TEST(BadPeer, WithAnotherObjectModelIsToldTheHashesOfBoth) {
+  std::string other_xml = harbour_xml;
+  other_xml.replace(other_xml.find("HLAfloat64LE"), 12, "HLAfloat32LE");
+  const Fom other = Fom::parse(other_xml, "other.xml");
+  Rig rig(Carrier::in_process);
+  Station& station = rig.connect(other);
+  station.ambassador.join("rink", "stranger", "tester");
+  rig.settle();
+  ASSERT_EQ(station.heard.refusal, Refusal::wrong_fom);
+  char both[96];
+  std::snprintf(both, sizeof both, "the federate's is %016llx, of the RTI's %016llx", static_cast<unsigned long long>(other.hash()),
+                static_cast<unsigned long long>(harbour().hash()));
+  EXPECT_NE(station.heard.log.back().find(both), std::string::npos) << station.heard.log.back();
 }
 
 struct Crime {

@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 
 std::string own_name(const char* what) { return test::unique_name(std::string("test-") + what); }
 
-struct Tale final : TransportListener {
+struct Tale : TransportListener {
   std::vector<ConnectionId> open;
   std::vector<std::byte> bytes;
   int closed = 0;
@@ -225,20 +225,16 @@ File hostile_listener(const std::string& name) {
   return socket;
 }
 
-TEST(SharedMemory, AServerWhoseMemoryCouldShrinkIsNotBelieved) {
-  const std::string name = own_name("unsealed");
-  const File listener = hostile_listener(name);
-  SharedMemoryTransport client;
-  Tale tale;
-  client.connect(name);
-  const File socket(::accept(listener.number(), nullptr, nullptr));
-  std::FILE* file = std::tmpfile();  // knows no seals at all
+/// The greeting of a server whose file knows no seals at all.
+void send_memory(const File& socket, std::uint32_t version) {
+  std::FILE* file = std::tmpfile();
   ASSERT_NE(file, nullptr);
   ASSERT_EQ(::ftruncate(::fileno(file), 4096 + 2 * 4096), 0);
   struct {
-    std::uint32_t magic = 0x4d534b52, version = 1;
+    std::uint32_t magic = 0x4d534b52, version = 0;
     std::uint64_t ring_size = 4096;
   } greeting;
+  greeting.version = version;
   iovec vector{&greeting, sizeof greeting};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
   msghdr header{};
@@ -250,11 +246,40 @@ TEST(SharedMemory, AServerWhoseMemoryCouldShrinkIsNotBelieved) {
   const int number = ::fileno(file);
   std::memcpy(CMSG_DATA(CMSG_FIRSTHDR(&header)), &number, sizeof number);
   ASSERT_GT(::sendmsg(socket.number(), &header, 0), 0);
+  std::fclose(file);
+}
+
+TEST(SharedMemory, AServerWhoseMemoryCouldShrinkIsNotBelieved) {
+  const std::string name = own_name("unsealed");
+  const File listener = hostile_listener(name);
+  SharedMemoryTransport client;
+  Tale tale;
+  client.connect(name);
+  const File socket(::accept(listener.number(), nullptr, nullptr));
+  send_memory(socket, 1);
   for (int i = 0; i < 100 && tale.closed == 0; ++i) client.poll(1ms, tale);
   EXPECT_TRUE(tale.open.empty());
   EXPECT_EQ(tale.closed, 1);
   EXPECT_EQ(tale.reason, CloseReason::failed);
-  std::fclose(file);
+}
+
+TEST(SharedMemory, AServerWithAnotherLayoutIsNamedWithBothVersions) {
+  const std::string name = own_name("layout");
+  const File listener = hostile_listener(name);
+  SharedMemoryTransport client;
+  struct : Tale {
+    std::string why;
+    void on_close(ConnectionId connection, CloseReason close_reason, const std::string& detail) override {
+      why = detail;
+      Tale::on_close(connection, close_reason, detail);
+    }
+  } tale;
+  client.connect(name);
+  const File socket(::accept(listener.number(), nullptr, nullptr));
+  send_memory(socket, 2);
+  for (int i = 0; i < 100 && tale.closed == 0; ++i) client.poll(1ms, tale);
+  EXPECT_TRUE(tale.open.empty());
+  EXPECT_EQ(tale.why, "'" + name + "' lays out shared memory by version 2, here it is version 1");
 }
 
 TEST(SharedMemory, AnotherUsersServerIsRefused) {

@@ -174,7 +174,7 @@ void Meeting::read_frames(rti::ConnectionId connection) {
     if (is_good) continue;
     if (role == Role::stranger || role == Role::caller) return dismiss(connection);
     if (role == Role::peer) lose(link, ExitStatus::failed, name_of(link) + " sent what is no message");
-    else note(ExitStatus::no_server, "what answers at " + link.guest.place.text() + " is no peer of this version");
+    else note(ExitStatus::no_server, "what answers at " + link.guest.place.text() + " is no peer that speaks version " + std::to_string(peer_protocol_version) + " of the peers' protocol");
     link.is_closed = true;
     sockets_.get().close(connection);
   }

@@ -63,7 +63,7 @@ PlayerEvidence read_player(EvidenceReader& reader) {
 PeerEvidence read_lines(EvidenceReader& reader) {
   PeerEvidence evidence;
   const nlohmann::json header = reader.next();
-  if (header.value("rink-peer-evidence", 0) != version) reader.refuse("a peer's evidence of version " + std::to_string(version));
+  reader.require_version(header.value("rink-peer-evidence", 0), version, "a peer's evidence");
   evidence.peer = header.at("peer"), evidence.peer_count = header.at("peers");
   evidence.begin = load_in(header.at("begin")), evidence.end = load_in(header.at("end"));
   for (const nlohmann::json& event : header.at("events")) {
