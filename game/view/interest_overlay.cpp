@@ -53,17 +53,22 @@ void add_rings(const MatchSight& sight, const InterestSeen& seen, Overlay& overl
   }
 }
 
-/// What is shown may be less than what there is: a message has its bounds.
-void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked, std::size_t bats, Overlay& overlay) {
+/// What is shown may be less than what there is: a message has its bounds. Players are counted by their regions, for bats
+/// that nobody plays are there as well.
+void add_lines(const MatchSight& sight, const InterestSeen& seen, const Thing& asked, Overlay& overlay) {
   char words[160];
   const auto line = [&] { overlay.lines.push_back(words); };
   if (seen.cell_size > 0.0f) std::snprintf(words, sizeof words, "grid: cells of %.3g m, regions of %u players", static_cast<double>(seen.cell_size), seen.view_count);
   else std::snprintf(words, sizeof words, "regions of %u players", seen.view_count);
   line();
   const bool is_bat = asked.kind == physics::BodyKind::bat;
-  std::snprintf(words, sizeof words, "%s %u (purple): %u of %zu players hear of it (orange)", is_bat ? "bat" : asked.kind == physics::BodyKind::puck ? "puck" : "post", asked.id, seen.hearer_count, bats);
+  std::snprintf(words, sizeof words, "%s %u (purple): %u of %u players hear of it (orange)", is_bat ? "bat" : asked.kind == physics::BodyKind::puck ? "puck" : "post", asked.id,
+                seen.hearer_count, seen.view_count);
   line();
   if (!is_bat) return;
+  const bool are_all_shown = seen.views.size() == seen.view_count;
+  if (are_all_shown && std::ranges::find(seen.views, asked.id, &InterestSeen::View::bat) == seen.views.end())
+    return overlay.lines.push_back("nobody plays it");
   std::snprintf(words, sizeof words, "its player hears of %u of %zu bodies (green)", seen.heard_count, sight.things.size());
   line();
 }
@@ -98,8 +103,7 @@ Overlay interest_overlay(const MatchSight& sight, const InterestChoice& choice) 
   add_views(seen, overlay);
   add_rings(sight, seen, overlay);
   const auto asked = std::ranges::find(sight.things, seen.asked, &Thing::id);
-  const auto bats = static_cast<std::size_t>(std::ranges::count(sight.things, physics::BodyKind::bat, &Thing::kind));
-  if (asked != sight.things.end()) add_lines(sight, seen, *asked, bats, overlay);
+  if (asked != sight.things.end()) add_lines(sight, seen, *asked, overlay);
   overlay.lines.push_back("Tab or a click asks of another, I hides this");
   return overlay;
 }

@@ -45,6 +45,7 @@ TEST(AnInterestReport, IsWhatEveryClientWasTold) {
       EXPECT_EQ(seen.heard, heard_by(rink.client(asked))) << scheme << ", bat " << asked;
       EXPECT_EQ(seen.cell_size > 0.0f, std::string(scheme) == "grid");
       ASSERT_EQ(seen.views.size(), 6u) << "and not who watches";
+      EXPECT_EQ(seen.view_count, 6u) << "of twelve bats";
       for (std::size_t k = 0; k < 6; ++k) {
         const auto view = std::ranges::find(seen.views, rink.client(k).bat()->object.value, &InterestSeen::View::bat);
         ASSERT_NE(view, seen.views.end());

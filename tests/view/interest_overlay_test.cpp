@@ -38,6 +38,20 @@ TEST(InterestOverlay, ShowsWhatWasDecidedEvenWhereGeometryWouldSayOtherwise) {
   EXPECT_EQ(std::ranges::count(overlay.discs, 2.0, &OverlayDisc::x), 2) << "bat 3 is heard of and hears";
 }
 
+/// Three bats of which two are played: the report has a region of each player, and no other.
+TEST(InterestOverlay, CountsThePlayersWhoAreThereAndNotTheBats) {
+  MatchSight sight = decided_sight();
+  sight.things.push_back({12, BodyKind::bat, game::Team::left, {15.0, 5.0}, {0.0, 0.0}, {0.05, 0.15}});
+  const std::vector<std::string> played{"grid: cells of 0.5 m, regions of 2 players", "bat 7 (purple): 1 of 2 players hear of it (orange)",
+                                        "its player hears of 2 of 5 bodies (green)", "Tab or a click asks of another, I hides this"};
+  EXPECT_EQ(interest_overlay(sight, {}).lines, played);
+  sight.interest->asked = 12;
+  sight.interest->heard.clear();
+  sight.interest->heard_count = sight.interest->hearer_count = 0;
+  const std::vector<std::string> free{played[0], "bat 12 (purple): 0 of 2 players hear of it (orange)", "nobody plays it", played[3]};
+  EXPECT_EQ(interest_overlay(sight, {}).lines, free);
+}
+
 TEST(InterestOverlay, IsEmptyUnlessSomethingWasToldAndItIsWanted) {
   MatchSight sight = decided_sight();
   for (const bool is_told : {true, false}) {
