@@ -145,13 +145,19 @@ void Renderer::draw(const Picture& picture, const Canvas& canvas) {
   glBindVertexArray(0);
 }
 
+/// A board that comes or goes is more than its face, and so no other score.
+bool Renderer::differs_in_score_alone(const Stage& was, Stage is) {
+  is.board.first = was.board.first, is.board.second = was.board.second;
+  return was == is;
+}
+
 bool Renderer::is_settled() const {
   return !is_moving_ && std::ranges::none_of(kept_, [this](const Kept& each) { return each.last_used + 2 >= frame_ && each.stage && each.smooth_rows < each.stage->height; });
 }
 
 /// The stage as it is wanted, one band of rows smoother than before. One that shows another score is changed; else the one that was not used for longest makes room.
 Renderer::Kept& Renderer::kept(const Stage& wanted, const Sight& sight) {
-  const auto is_same_but_score = [&](const Kept& each) { return each.stage && Stage{each.stage->table, wanted.board, each.stage->camera, each.stage->width, each.stage->height} == wanted; };
+  const auto is_same_but_score = [&](const Kept& each) { return each.stage && differs_in_score_alone(*each.stage, wanted); };
   auto found = std::ranges::find_if(kept_, [&](const Kept& each) { return each.stage == wanted; });
   if (found == kept_.end()) found = std::ranges::find_if(kept_, is_same_but_score);
   if (found == kept_.end()) found = std::ranges::min_element(kept_, {}, &Kept::last_used);
@@ -175,7 +181,7 @@ void Renderer::set_stage(Kept& kept, const Stage& stage, const Sight& sight) {
   if (!was) kept.mesh = FloatStream(stage_row, false);
   if (!was || was->table != stage.table || was->board != stage.board || was->camera.is_plan != stage.camera.is_plan)
     kept.mesh.fill(stage.camera.is_plan ? plan_mesh(stage.table) : stage_mesh(stage.table, stage.board));
-  const bool is_score_alone = was && Stage{was->table, stage.board, was->camera, was->width, was->height} == stage && was->board.is_left_first == stage.board.is_left_first;
+  const bool is_score_alone = was && differs_in_score_alone(*was, stage);
   const Eigen::AlignedBox2i board = seen_pixels(board_box(stage.table, stage.board), sight, stage.width, stage.height);
   const Part part = is_score_alone ? Part{board.min().x(), board.min().y(), board.sizes().x(), board.sizes().y()} : Part{0, 0, stage.width, stage.height};
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

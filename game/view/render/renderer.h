@@ -52,6 +52,7 @@ class Renderer {
     int x = 0, y = 0, width = 0, height = 0;
   };
 
+  static bool differs_in_score_alone(const Stage& was, Stage is);
   Kept& kept(const Stage& wanted, const Sight& sight);
   void set_stage(Kept& kept, const Stage& stage, const Sight& sight);
   void smooth(Kept& kept, const Sight& sight, const Part& part);

@@ -1,0 +1,146 @@
+// Every body where it is, in its own shape: a picture with it against one without it.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "game/view/picture_of.h"
+#include "game/view/render/image_file.h"
+#include "game/view/render/offscreen.h"
+#include "game/view/render/renderer.h"
+#include "tests/view/sights.h"
+#include "tests/view/tiles.h"
+
+namespace rink::view {
+namespace {
+
+constexpr int width = 480, height = 270;
+constexpr double aspect = static_cast<double>(width) / height;
+
+class ThingsShown : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    setenv("LP_NUM_THREADS", "1", 0);
+    try {
+      context_ = std::make_unique<OffscreenContext>();
+    } catch (const GraphicsError& error) {
+      trouble_ = error.what();
+      return;
+    }
+    renderer_ = std::make_unique<Renderer>();
+    target_ = std::make_unique<Target>(width, height, 0);
+  }
+  static void TearDownTestSuite() {
+    target_.reset();
+    renderer_.reset();
+    context_.reset();
+  }
+  void SetUp() override {
+    if (!context_) GTEST_SKIP() << trouble_;
+  }
+
+  Image drawn(const MatchSight& sight, const ViewChoice& choice) {
+    const Picture picture = picture_of(sight, {}, choice, aspect);
+    do renderer_->draw(picture, {target_->framebuffer(), 0, 0, width, height});
+    while (!renderer_->is_settled());
+    return read_pixels(target_->framebuffer(), width, height);
+  }
+
+  /// Which part of the points of the top of `thing` differs between two pictures. A point is given in halves of its sides,
+  /// from -1 to 1 each way on its top.
+  struct Shape {
+    const Thing& thing;
+    const ViewChoice& choice;
+    const physics::Field& field;
+  };
+  template <class IsWanted>
+  static double part_that_differs(const Image& a, const Image& b, const Shape& shape, double reach, const IsWanted& is_wanted) {
+    const Sight sight(camera_of(shape.field, shape.choice, aspect), static_cast<float>(aspect));
+    MatchSight alone;
+    alone.field = shape.field;
+    alone.things = {shape.thing};
+    const float top = shape.choice.viewpoint == Viewpoint::above ? 0.0f : picture_of(alone, {}, shape.choice, aspect).pieces[0].height;
+    int differ = 0, all = 0;
+    constexpr int steps = 10;
+    for (int i = -steps; i <= steps; ++i)
+      for (int j = -steps; j <= steps; ++j) {
+        const double u = reach * i / steps, v = reach * j / steps;
+        if (!is_wanted(u, v)) continue;
+        const Vector2 at = shape.thing.position + Vector2(u, v).cwiseProduct(shape.thing.half_extent);
+        const Eigen::Vector2f window = sight.project({static_cast<float>(at.x()), static_cast<float>(at.y()), top});
+        const int x = static_cast<int>(std::floor((0.5 * static_cast<double>(window.x()) + 0.5) * width));
+        const int y = static_cast<int>(std::floor((0.5 - 0.5 * static_cast<double>(window.y())) * height));
+        if (x < 0 || y < 0 || x >= width || y >= height) continue;
+        const auto pixel = static_cast<std::size_t>((y * width + x) * a.channels);
+        int most = 0;
+        for (std::size_t channel = 0; channel < 3; ++channel) most = std::max(most, std::abs(int{a.pixels[pixel + channel]} - int{b.pixels[pixel + channel]}));
+        differ += most > 4 ? 1 : 0;  // a steel top on a white table is not much
+        ++all;
+      }
+    EXPECT_GT(all, 0);
+    return static_cast<double>(differ) / std::max(1, all);
+  }
+
+  static MatchSight without(MatchSight sight, std::uint32_t id) {
+    std::erase_if(sight.things, [id](const Thing& each) { return each.id == id; });
+    return sight;
+  }
+
+  /// The whole of `thing` is seen at its place; a bat to its corners, a disc round.
+  void expect_shown(const Image& all, const Image& less, const Shape& shape) {
+    const bool is_bat = shape.thing.kind == physics::BodyKind::bat;
+    const auto is_inside = [&](double u, double v) { return is_bat || u * u + v * v <= 0.8 * 0.8; };
+    EXPECT_GT(part_that_differs(all, less, shape, 0.8, is_inside), 0.8) << "thing " << shape.thing.id << " from viewpoint " << static_cast<int>(shape.choice.viewpoint);
+  }
+  /// From above and without shadows nothing is seen beside it.
+  void expect_nothing_beside(const Image& all, const Image& less, const Shape& shape) {
+    const bool is_bat = shape.thing.kind == physics::BodyKind::bat;
+    const auto is_beside = [&](double u, double v) { return is_bat ? std::abs(u) > 1.6 && std::abs(v) < 1.0 : u * u + v * v > 1.6 * 1.6; };
+    EXPECT_LT(part_that_differs(all, less, shape, 2.0, is_beside), 0.05) << "beside thing " << shape.thing.id;
+  }
+
+  static inline std::unique_ptr<OffscreenContext> context_;
+  static inline std::unique_ptr<Renderer> renderer_;
+  static inline std::unique_ptr<Target> target_;
+  static inline std::string trouble_;
+};
+
+TEST_F(ThingsShown, StandWhereTheyAreFromEveryViewpoint) {
+  const MatchSight sight = match_sight();
+  for (const Viewpoint viewpoint : {Viewpoint::side, Viewpoint::left_end, Viewpoint::right_end, Viewpoint::above}) {
+    const ViewChoice choice{.viewpoint = viewpoint};
+    const Image all = drawn(sight, choice);
+    for (const Thing& thing : sight.things) expect_shown(all, drawn(without(sight, thing.id), choice), {thing, choice, sight.field});
+  }
+}
+
+/// At this zoom a bat is 7 x 21 pixels and a puck 6 across.
+TEST_F(ThingsShown, OfACrowdAreBatsAndDiscs) {
+  const MatchSight sight = crowd_sight();
+  const ViewChoice choice{.viewpoint = Viewpoint::above, .zoom = 3.0};
+  const Image all = drawn(sight, choice);
+  for (const std::uint32_t id : {1012u, 1011u, 1019u, 473u, 475u, 525u}) {
+    const Thing& thing = sight.things[id];
+    const Image less = drawn(without(sight, id), choice);
+    expect_shown(all, less, {thing, choice, sight.field});
+    expect_nothing_beside(all, less, {thing, choice, sight.field});
+  }
+}
+
+/// The puck is 0.09 % of this picture: too little to be missed in the whole of it, but not in its tile.
+TEST_F(ThingsShown, AreMissedInTheirTileIfTheyAreNotThere) {
+  const MatchSight sight = match_sight();
+  for (const Viewpoint viewpoint : {Viewpoint::side, Viewpoint::left_end, Viewpoint::right_end}) {
+    const ViewChoice choice{.viewpoint = viewpoint};
+    const Image all = drawn(sight, choice);
+    for (const Thing& thing : sight.things) {
+      const Tile worst = worst_tile(all, drawn(without(sight, thing.id), choice));
+      EXPECT_FALSE(worst.is_alike()) << "thing " << thing.id << " from viewpoint " << static_cast<int>(viewpoint) << ": " << worst;
+    }
+    EXPECT_TRUE(worst_tile(all, drawn(sight, choice)).is_alike());
+  }
+}
+
+}  // namespace
+}  // namespace rink::view
