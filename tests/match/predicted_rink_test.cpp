@@ -44,6 +44,51 @@ TEST(APredictedRink, ShowsTheOwnBatWhereTheServerWillHaveItThoughNothingIsToldFo
   EXPECT_EQ(rink.own_corrections().visible_count, 0u);
 }
 
+/// Datagrams overtake each other: what was true before is no news.
+TEST(APredictedRink, GoesByTheNewestStateWhateverComesAfterIt) {
+  Game game(match_scene());
+  game.submit({0.0, 1, InputKind::key_down, Key::down});
+  game.advance(0.1);
+  const ToldRink older = told_by(game);
+  game.submit({0.15, 0, InputKind::key_down, Key::up});
+  game.submit({0.15, 1, InputKind::key_up, Key::down});
+  game.advance(0.2);
+  const ToldRink newer = told_by(game);
+  PredictedRink rink(match_scene(), 0), only_newer(match_scene(), 0);
+  rink.hear(newer), rink.hear(older);
+  only_newer.hear(newer);
+  EXPECT_EQ(rink.told_time(), 0.2);
+  game.advance(0.4);
+  for (PredictedRink* each : {&rink, &only_newer}) each->advance(0.4, 0.0);
+  for (const std::uint32_t bat : {0u, 1u}) {
+    EXPECT_LT((rink.bats()[bat].position - bat_of(game, bat)).norm(), 1e-12) << bat;
+    EXPECT_EQ(rink.bats()[bat].position, only_newer.bats()[bat].position);
+  }
+  rink.hear(older);
+  rink.advance(0.4, 0.0);
+  EXPECT_EQ(rink.bats()[0].position, only_newer.bats()[0].position);
+  EXPECT_EQ(rink.own_corrections().visible_count + rink.other_corrections().visible_count, 0u);
+}
+
+/// Of the keys that were pressed those are pressed again that were not felt yet, however old the word is that says so.
+TEST(APredictedRink, ForgetsAKeyThatWasFeltOnceAndForAll) {
+  Game game(match_scene());
+  PredictedRink rink(match_scene(), 0);
+  rink.hear(told_by(game));
+  rink.advance(0.0, 0.0);
+  const ToldRink before = told_by(game);
+  rink.press(Key::up, true, 0.05);
+  game.submit({0.05, 0, InputKind::key_down, Key::up});
+  game.advance(0.1);
+  rink.hear(told_by(game));
+  EXPECT_EQ(rink.keys_waiting(), 0u);
+  rink.hear(before);
+  rink.advance(0.3, 0.0);
+  game.advance(0.3);
+  EXPECT_EQ(rink.keys_waiting(), 0u);
+  EXPECT_LT((rink.bats()[0].position - bat_of(game, 0)).norm(), 1e-12);
+}
+
 TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
   Game game(match_scene());
   PredictedRink rink(match_scene(), 0);

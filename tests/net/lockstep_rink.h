@@ -27,6 +27,7 @@ struct LockstepSettings {
   std::uint32_t clients = 2;
   double rate_hz = 30.0;
   double view_fraction = 0.2;
+  double view_margin = 0.0;
   ServerSettings server = {};
 };
 
@@ -46,6 +47,9 @@ class LockstepRink {
   Client& add_client(const std::string& name, bool only_watches = false);
   /// Cuts client `index` off without a word, as kill -9 does.
   void kill(std::size_t index);
+
+  /// Client `index` takes its leave.
+  void leave(std::size_t index);
 
   Server& server() { return *server_; }
   Client& client(std::size_t index) { return *clients_[index]->client; }

@@ -1,6 +1,7 @@
 // Clients' mirrors against the server's own state: filters change the traffic, never the game.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "game/net/fom_file.h"
@@ -99,6 +100,40 @@ TEST(Mirror, KnowsThatItWasNotToldYetWhereADiscoveredEntityIs) {
   EXPECT_FALSE(mirror.find(object)->is_placed) << "where it was when it left is not where it is";
   mirror.reflect(object, rti::AttributeSet{model.position}, encode(bytes, there), {});
   EXPECT_TRUE(mirror.find(object)->is_placed);
+}
+
+/// x(t) = x0 + v (1 - exp(-g t)) / g: by the drag that is the field's, whether that was told before the path or after it.
+TEST(Mirror, FollowsAPathByTheFieldsDragThoughThatComesLater) {
+  const rti::Fom fom = load_rink_fom(fom_file());
+  const ObjectModel model(fom);
+  const rti::ObjectHandle field{1}, puck{7}, bat{8};
+  const Extent extent{.length = 20.0f, .width = 10.0f};
+  const Drag drag{.pucks = 0.8, .bats = 2.5, .puck_friction = 0.0};
+  for (const bool is_late : {false, true})
+    for (const bool is_snapshot : {false, true}) {
+      Mirror mirror(model);
+      std::vector<std::byte> bytes;
+      mirror.discover(field, model.field);
+      const auto tell_drag = [&] { mirror.reflect(field, rti::AttributeSet{model.extent, model.drag}, encode(bytes, extent, drag), {}); };
+      if (!is_late) tell_drag();
+      for (const auto& [object, kind] : {std::pair{puck, physics::BodyKind::puck}, {bat, physics::BodyKind::bat}}) {
+        mirror.discover(object, model.entity);
+        const Shape shape{.kind = static_cast<std::uint8_t>(kind), .half_length = 0.04f, .half_width = 0.04f};
+        mirror.reflect(object, rti::AttributeSet{model.shape}, encode(bytes, shape), {});
+        const Trajectory path{.time = 1.0, .position = {3.0, 4.0}, .velocity = {2.0, -1.0}};
+        const Snapshot seen{.position = {3.0, 4.0}, .velocity = {2.0, -1.0}};
+        if (is_snapshot) mirror.reflect(object, rti::AttributeSet{model.snapshot}, encode(bytes, seen), {.time = 1.0, .tag = 0});
+        else mirror.reflect(object, rti::AttributeSet{model.trajectory}, encode(bytes, path), {.time = 1.0, .tag = 0});
+      }
+      if (is_late) tell_drag();
+      for (const auto& [object, g] : {std::pair{puck, drag.pucks}, {bat, drag.bats}}) {
+        const double s = (1.0 - std::exp(-g * 0.5)) / g;
+        const physics::Vector2 there = mirror.find(object)->position_at(1.5);
+        EXPECT_NEAR(there.x(), 3.0 + 2.0 * s, 1e-6) << "drag " << g << (is_late ? ", told late" : "");
+        EXPECT_NEAR(there.y(), 4.0 - 1.0 * s, 1e-6);
+      }
+      EXPECT_EQ(mirror.counters().malformed, 0u);
+    }
 }
 
 }  // namespace
