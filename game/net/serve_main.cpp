@@ -30,6 +30,7 @@
 #include "game/net/serve_status.h"
 #include "game/net/serving.h"
 #include "game/net/speak_as.h"
+#include "game/replication/names.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
@@ -66,7 +67,8 @@ class ServerProcess {
         sockets_(options.transport),
         serving_(fom, scene,
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
-                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options), .always_relevant = game::relevant_kinds_of(scene, options.always)},
+                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options), .key_limit_per_s = options.key_limit_per_s,
+                  .always_relevant = game::relevant_kinds_of(scene, options.always)},
                  federation_of(options, scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
         staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
         gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
@@ -106,6 +108,7 @@ class ServerProcess {
   void tick(std::uint64_t number, bool is_counted);
   void end_span();
   void keep_records();
+  void report_flood();
 
   game::ServeOptions options_;
   rti::SocketTransport sockets_;
@@ -116,6 +119,7 @@ class ServerProcess {
   game::Server& server_;
   game::MatchRecords records_;
   double start_s_ = 0.0;
+  bool is_flood_reported_ = false;
   Costs costs_;
 };
 
@@ -172,6 +176,7 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
   keep_records();
+  report_flood();
   if (!is_counted) return;
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
@@ -231,6 +236,14 @@ void ServerProcess::end() {
 void ServerProcess::try_records() {
   if (options_.hosted.empty()) return;
   if (const auto trouble = records_.test()) spdlog::error("{}; matches are played without a record", *trouble);
+}
+
+/// Once: who sends too much could fill the terminal as well.
+void ServerProcess::report_flood() {
+  const game::ServerCounters& counters = server_.counters();
+  if (counters.keys_over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
+  spdlog::warn("the player of {} sends more than {:g} key changes a second (--key-limit): what is more is not felt",
+               game::bat_name(counters.player_over_limit), options_.key_limit_per_s);
 }
 
 /// Players are told on their screens if there is none.
@@ -340,6 +353,8 @@ game::ExitStatus serve(game::ServeOptions& options) {
   const game::KeyLog log = options.record.empty() || !options.hosted.empty() ? game::KeyLog{} : record_of(choice, scene, process.server());
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
+  if (report["keys_over_limit"] != 0)
+    spdlog::warn("{} key changes above --key-limit were not felt", report["keys_over_limit"].get<std::uint64_t>());
   process.end();
   game::add_totals(report, process.totals());
   if (!options.report.empty()) game::write_file(options.report, report.dump(2));

@@ -9,6 +9,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/relevant_kinds.h"
+#include "game/net/server.h"
 #include "game/replication/update_policy.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/socket_transport.h"
@@ -27,6 +28,7 @@ struct ServeOptions {
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
   double spread = 0.0;
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
+  double key_limit_per_s = key_limit_default;  ///< of each player; 0: none
 };
 
 inline void add_options(CLI::App& app, ServeOptions& options) {
@@ -49,6 +51,9 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--key-file", options.key_file, "let in only clients that have the same file (docs/rti.md, Admission); none: all")->check(CLI::ExistingFile);
   app.add_option("--rate-limit", options.rate_limit_bytes_per_s, "bytes per second that a client may send before it is dropped; 0: any")->check(number_from(0.0, 1e12))->capture_default_str();
   app.add_option("--frame-limit", options.frame_limit_per_s, "frames per second that a client may send before it is dropped; 0: any")->check(zero_or_number_from(1.0, 1e9))->capture_default_str();
+  app.add_option("--key-limit", options.key_limit_per_s, "key changes per second that a player may send; what is more is not felt, but counted and said; 0: any")
+      ->check(zero_or_number_from(1.0, 1e9))
+      ->capture_default_str();
   app.add_option("--scheme", options.scheme, "interest management: a scheme, or several with and, or, not, and stages after with (docs/im.md)")
       ->check([](const std::string& text) { return im::complaint_about(text, {}).value_or(""); }, "SCHEME")
       ->capture_default_str();

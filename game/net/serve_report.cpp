@@ -45,7 +45,8 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
               {"dropped_connections", std::accumulate(now.drops.begin(), now.drops.end(), std::uint64_t{0}) + serving.host().closed_by_full_queue()},
               {"keys_received", server.counters().keys_received},
               {"keys_applied", server.counters().keys_applied},
-              {"keys_refused", server.counters().keys_refused}};
+              {"keys_refused", server.counters().keys_refused},
+              {"keys_over_limit", server.counters().keys_over_limit}};
   // Stages are in the order in which they stand; of two of a kind each has its own entry.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];

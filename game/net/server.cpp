@@ -25,6 +25,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
       always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))),
+      key_limit_per_s_(settings.key_limit_per_s),
       is_synchronous_(settings.is_synchronous),
       is_time_managed_(settings.is_time_managed),
       tick_s_(settings.tick_s) {
@@ -84,7 +85,7 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
   const std::optional<std::uint32_t> player = free_seat(name);
   if (!player) return offer_seat(federate, {});
   if (seats_.size() <= federate.value) seats_.resize(federate.value + 1);
-  seats_[federate.value] = Seat{.player = *player, .held = {}};
+  seats_[federate.value] = Seat{.player = *player, .held = {}, .allowance = {key_limit_per_s_, now_()}};
   if (flow_) flow_->enter(*player, now_());
   else if (!is_replay_ && !game_.bat(*player)) submit({.time = simulated_now(), .player = *player, .kind = InputKind::enter});
   is_taken_[*player] = true;
@@ -143,10 +144,16 @@ void Server::receive_key(Seat& seat, rti::Bytes parameters, bool is_down, double
     ++counters_.keys_refused;
     return;
   }
-  double time = simulated_now();
+  const double now = now_();
+  double time = simulated_at_clock(now);
   if (flow_ && wanted_s < time - 1e-4) ++counters_.keys_late;
   if (flow_) time = seat.last_key_s = next_on(key_grid, std::max({time, seat.last_key_s, std::min(wanted_s, time + key_lead_max)}));
   pending_.push_back({.time = time, .player = seat.player});
+  if (!seat.allowance.take(1.0, now)) {
+    ++counters_.keys_over_limit;
+    counters_.player_over_limit = seat.player;
+    return;
+  }
   if (!are_keys_felt()) return;
   submit({.time = time, .player = seat.player, .kind = is_down ? InputKind::key_down : InputKind::key_up, .key = *key});
   seat.held.set(*key, is_down);

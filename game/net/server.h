@@ -16,6 +16,7 @@
 #include "game/match/interest_seen.h"
 #include "game/net/relevant_kinds.h"
 #include "game/replication/publisher.h"
+#include "rti/admission/token_bucket.h"
 #include "rti/ambassador.h"
 
 namespace rink::game {
@@ -25,6 +26,10 @@ struct Hosting {
   FlowTimes times;
   std::string scene_text;  ///< the scene's file: players work out from it what to show, records need no other; at most SceneText::size_max bytes
 };
+
+/// Key changes per second and player: fast hands make 30, and a bot that decides 20 times a second, of each of its four keys,
+/// never more than 80.
+inline constexpr double key_limit_default = 240.0;
 
 struct ServerSettings {
   std::string federation = "rink";
@@ -38,12 +43,17 @@ struct ServerSettings {
   std::optional<std::vector<InputEvent>> replay;
   /// Absent: one game that never stops. There must be no match_objection() to the scene, and no replay (both asserted).
   std::optional<Hosting> hosting{};
+  /// Key changes that a player may send per second, a second's worth of them at once; 0: any. What is more is counted and
+  /// acknowledged, so that its player does not wait for it, but not felt.
+  double key_limit_per_s = key_limit_default;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
 };
 
 struct ServerCounters {
   std::uint64_t keys_received = 0, keys_applied = 0, keys_refused = 0, federates_lost = 0;
   std::uint64_t inspections_answered = 0;
+  std::uint64_t keys_over_limit = 0;
+  std::uint32_t player_over_limit = 0;  ///< who sent the last of them
   std::uint64_t keys_late = 0;  ///< of hosted matches: arrived after the instant for which they were stamped, by more than 0.1 ms
 };
 
@@ -136,6 +146,7 @@ class Server : public rti::FederateAmbassador {
     bool is_turn_done = false;
     KeysHeld held;            ///< once all that was submitted is felt
     double last_key_s = 0.0;  ///< the simulated instant of the last one
+    rti::TokenBucket allowance;  ///< of key changes
   };
   struct Pending {
     double time;
@@ -168,7 +179,8 @@ class Server : public rti::FederateAmbassador {
   void begin_match();
   void release_keys(Seat& seat);
   bool are_keys_felt() const;
-  double simulated_now() const;
+  double simulated_now() const { return simulated_at_clock(now_()); }
+  double simulated_at_clock(double now) const;
   void submit(const InputEvent& event);
   Seat* seat_of(rti::FederateHandle federate);
 
@@ -189,6 +201,7 @@ class Server : public rti::FederateAmbassador {
   std::vector<Seated> seated_;
   RelevantKinds always_relevant_;
   std::uint32_t player_count_ = 0, turns_done_ = 0;
+  double key_limit_per_s_;
   bool is_synchronous_, is_time_managed_;
   bool hands_in_flights_ = false;
   bool is_called_ = false, is_started_ = false;  ///< the players, to the start

@@ -30,7 +30,9 @@ void Server::publish_match(const rti::Stamp& stamp) {
 }
 
 /// Simulated time as players count on it; a countdown's end is foreseen, so that keys that are stamped for the first instants of play are not late.
-double Server::simulated_now() const { return std::max(flow_ ? simulated_at(flow_->state(), now_()) : now_(), game_.now()); }
+double Server::simulated_at_clock(double now) const {
+  return std::max(flow_ ? simulated_at(flow_->state(), now) : now, game_.now());
+}
 
 double Server::follow_match(double real_s) {
   assert(flow_);

@@ -16,6 +16,7 @@
 #include "loadgen/process.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp.h"
+#include "tests/net/guest.h"
 #include "tests/places.h"
 #include "tests/reserved_port.h"
 #include "tests/temporary_folder.h"
@@ -26,32 +27,6 @@ namespace {
 using loadgen::Process;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
-
-/// How a command ended and what it said.
-struct Ended {
-  int status = -1;
-  std::string words;
-};
-
-Ended run(const std::string& command, const std::vector<std::string>& arguments) {
-  Process process(test::binary_folder() + "/bin/" + command, arguments, {});
-  const auto limit = std::chrono::steady_clock::now() + 20s;
-  while (!process.ending() && std::chrono::steady_clock::now() < limit) process.attend(20ms);
-  if (!process.ending()) return {};
-  return {process.ending()->exit_status, process.last_words()};
-}
-
-Ended serve(std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--port", "0"});
-  return run("rink-serve", arguments);
-}
-
-/// Where the server listens, once it says so.
-std::optional<std::string> place_of(Process& server) {
-  std::optional<std::string> place;
-  for (int i = 0; i < 500 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
-  return place;
-}
 
 TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   for (const char* flag : {"--rate", "--duration", "--warm-up", "--patience", "--cell-size", "--bats", "--clients"}) {
@@ -307,12 +282,18 @@ TEST(ServeCommand, APlayerWhoNeverGetsReadyCostsTheServerNothingButThePatience) 
   EXPECT_THAT(server.last_words(), HasSubstr("1 players came, but not all were ready to start within 7 s"));
 }
 
+/// What is printed later is what is true later: a federate who came in between is there.
 TEST(ServeCommand, StatusAsksAgainWhenToldTo) {
   Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "match", "--port", "0"}, {});
   const std::optional<std::string> place = place_of(server);
   ASSERT_TRUE(place) << server.last_words();
   Process status(test::binary_folder() + "/bin/rink-serve", {"--status", *place, "--every", "0.05"}, {});
-  for (int i = 0; i < 30 && !status.ending(); ++i) status.attend(20ms);
+  for (int i = 0; i < 200 && !status.line_after("server "); ++i) status.attend(20ms);
+  EXPECT_TRUE(status.line_after("server ")) << status.last_words();
+  EXPECT_FALSE(status.line_after("Ada "));
+  Guest guest(*place, {.name = "Ada", .only_watches = true});
+  for (int i = 0; i < 400 && !status.line_after("Ada "); ++i) guest.exchange(), status.attend(5ms);
+  EXPECT_TRUE(status.line_after("Ada ")) << "it asked before Ada came, and again since then";
   EXPECT_FALSE(status.ending()) << "it goes on until it is interrupted: " << status.last_words();
   status.stop(5s);
   EXPECT_EQ(status.ending()->exit_status, 0);

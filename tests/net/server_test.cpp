@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "game/players/player.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 
@@ -107,6 +110,55 @@ TEST(Server, StepsInSynchronousModeWhenAllPlayersHaveSaidUpdate) {
   EXPECT_TRUE(rink.server().all_turns_done());
   rink.tick();
   EXPECT_FALSE(rink.server().all_turns_done());
+}
+
+/// 9,600 key changes a second, as a program sends them: a full second's worth is felt at once, and of each later tick its share.
+TEST(Server, FeelsNoMoreKeysOfAPlayerThanItsLimitAndAllOfTheOther) {
+  LockstepRink rink(match(), {.clients = 2, .rate_hz = 30.0});
+  rink.start();
+  constexpr int ticks = 60, flood = 320;
+  for (int tick = 0; tick < ticks; ++tick) {
+    for (int i = 0; i < flood / 2; ++i) rink.client(0).press(Key::up), rink.client(0).release(Key::up);
+    tick % 2 == 0 ? rink.client(1).press(Key::down) : rink.client(1).release(Key::down);
+    rink.tick();
+  }
+  rink.tick();
+  const auto felt = static_cast<double>(std::ranges::count(rink.server().record(), 0u, &InputEvent::player));
+  EXPECT_NEAR(felt, key_limit_default * (1.0 + (ticks - 1) / 30.0), 1.0);
+  EXPECT_EQ(rink.server().counters().keys_over_limit, ticks * flood - static_cast<std::uint64_t>(felt));
+  EXPECT_EQ(rink.server().counters().player_over_limit, 0u);
+  EXPECT_EQ(std::ranges::count(rink.server().record(), 1u, &InputEvent::player), ticks);
+  EXPECT_EQ(rink.client(0).bat()->input.count, static_cast<std::uint32_t>(ticks * flood)) << "nobody waits for a key that is not felt";
+  EXPECT_EQ(rink.client(1).bat()->input.count, static_cast<std::uint32_t>(ticks));
+}
+
+TEST(Server, FeelsEveryKeyWithoutALimit) {
+  LockstepRink rink(match(), {.clients = 1, .server = {.replay = std::nullopt, .key_limit_per_s = 0.0}});
+  rink.start();
+  for (int i = 0; i < 1000; ++i) rink.client(0).press(Key::up), rink.client(0).release(Key::up);
+  rink.tick();
+  EXPECT_EQ(rink.server().record().size(), 2000u);
+  EXPECT_EQ(rink.server().counters().keys_over_limit, 0u);
+}
+
+/// No bot decides more often than every decision_period, nor has more keys than four; one whose link stood still for two
+/// seconds has as many more to send at once.
+TEST(Server, FeelsEveryKeyOfABotThatChangesAllItsKeysAtEachDecision) {
+  static_assert(all_keys.size() / decision_period <= key_limit_default / 3.0);
+  LockstepRink rink(match(), {.clients = 1, .rate_hz = 1.0 / decision_period});
+  rink.start();
+  std::uint64_t sent = 0;
+  const auto decide = [&](bool is_down) {
+    for (const Key key : all_keys) is_down ? rink.client(0).press(key) : rink.client(0).release(key), ++sent;
+  };
+  for (int tick = 0; tick < 200; ++tick) {
+    const bool stood_still = tick > 140 && tick <= 180;
+    if (!stood_still) decide(tick % 2 == 0);
+    for (int missed = 0; tick == 181 && missed < 40; ++missed) decide(missed % 2 == 0);
+    rink.tick();
+  }
+  EXPECT_EQ(rink.server().record().size(), sent);
+  EXPECT_EQ(rink.server().counters().keys_over_limit, 0u);
 }
 
 TEST(Server, CountsAKeyThatDoesNotExistAndPlaysOn) {
