@@ -37,6 +37,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
   }
   assert(policy_ && "the command line is checked against update_policy_names()");
   is_taken_.resize(game_.player_count());
+  is_leaving_.resize(game_.player_count());
   felt_.resize(game_.player_count());
   if (is_replay_)
     for (const InputEvent& event : *settings.replay) submit(event);
@@ -87,7 +88,8 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
   if (seats_.size() <= federate.value) seats_.resize(federate.value + 1);
   seats_[federate.value] = Seat{.player = *player, .held = {}, .allowance = {key_limit_per_s_, now_()}};
   if (flow_) flow_->enter(*player, now_());
-  else if (!is_replay_ && !game_.bat(*player)) submit({.time = simulated_now(), .player = *player, .kind = InputKind::enter});
+  else if (!is_replay_ && (!game_.bat(*player) || is_leaving_[*player])) submit({.time = simulated_now(), .player = *player, .kind = InputKind::enter});
+  is_leaving_[*player] = false;
   is_taken_[*player] = true;
   felt_[*player] = 0;
   ++player_count_;
@@ -100,7 +102,7 @@ void Server::federate_resigned(rti::FederateHandle federate, std::string_view, s
   const std::uint32_t player = seat->player;
   std::erase_if(pending_, [player](const Pending& pending) { return pending.player == player; });
   if (flow_) release_keys(*seat), flow_->leave(player, now_());
-  else if (!is_replay_) submit({.time = simulated_now(), .player = player, .kind = InputKind::leave});
+  else if (!is_replay_) submit({.time = simulated_now(), .player = player, .kind = InputKind::leave}), is_leaving_[player] = true;
   if (seat->is_turn_done) --turns_done_;
   --player_count_;
   is_taken_[player] = false;

@@ -194,6 +194,7 @@ class Server : public rti::FederateAmbassador {
   std::unique_ptr<Publisher> publisher_;
   std::vector<std::optional<Seat>> seats_;  ///< by federate
   std::vector<bool> is_taken_;              ///< by player
+  std::vector<bool> is_leaving_;            ///< by player: the bat is to go at an instant that has not been played yet
   std::vector<Pending> pending_;            ///< keys received, not yet felt
   std::vector<std::uint32_t> felt_;         ///< by player
   std::vector<InputEvent> record_;

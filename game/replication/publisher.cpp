@@ -28,6 +28,7 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt, c
   registered_.clear();
   flights_.clear();
   sweep_.look_at(game.world());
+  if (!game.spawned().empty()) retire_gone(game);
   for (const Entity& entity : game.entities()) {
     Input input;
     if (entity.player) input = {.count = *entity.player < felt.size() ? felt[*entity.player] : 0u, .held = game.keys_held(*entity.player).bits()};
@@ -147,12 +148,20 @@ void Publisher::retire_all() {
 
 /// Deletes what was published once but is no longer in the game.
 void Publisher::retire_absent() {
-  for (Published& published : published_) {
-    if (!published.object || published.tick == tick_) continue;
-    ambassador_.delete_object_instance(published.object);
-    ambassador_.delete_region(published.region);
-    published = {};
-  }
+  for (Published& published : published_)
+    if (published.object && published.tick != tick_) retire(published);
+}
+
+/// Before anything is registered: a bat that left and came back within one tick has the name that it had.
+void Publisher::retire_gone(const Game& game) {
+  for (std::uint32_t index = 0; index < published_.size(); ++index)
+    if (published_[index].object && !game.is_there(EntityId{index})) retire(published_[index]);
+}
+
+void Publisher::retire(Published& published) {
+  ambassador_.delete_object_instance(published.object);
+  ambassador_.delete_region(published.region);
+  published = {};
 }
 
 void Publisher::publish_score(const Game& game, const rti::Stamp& stamp) {

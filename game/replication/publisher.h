@@ -75,6 +75,8 @@ class Publisher {
 
   void add(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
   void retire_absent();
+  void retire_gone(const Game& game);
+  void retire(Published& published);
   void follow(const Game& game, const Entity& entity, Published& published);
   bool fly(const Game& game, const Entity& entity, Published& published);
   void update(const Game& game, const Entity& entity, const Input& input, const rti::Stamp& stamp);
