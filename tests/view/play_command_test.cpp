@@ -12,8 +12,11 @@
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/model/scene_file.h"
+#include "game/net/scene_choice.h"
 #include "game/view/render/image_file.h"
+#include "game/view/picture_of.h"
 #include "game/view/render/offscreen.h"
+#include "loadgen/process.h"
 #include "rti/transport/tcp.h"
 #include "tests/places.h"
 #include "tests/reserved_port.h"
@@ -68,9 +71,94 @@ TEST_F(PlayCommand, TakesTheSamePicturesForTheSameScript) {
   EXPECT_EQ(first.width, 640);
 }
 
+/// What was done in a recorded match, found by playing it again.
+struct Played {
+  explicit Played(const std::string& file) : log(game::read_key_log(std::filesystem::path(file))) {
+    game::Game game(game::load_scene("match"));
+    const physics::BodyId bot = *game.bat(1);
+    game.record_events(true);
+    for (const game::InputEvent& event : log.events) {
+      game.submit(event);
+      ++(event.player == 0 ? own_keys : bot_keys);
+    }
+    game.advance(log.until.value());
+    for (const physics::Event& event : game.events())
+      touches += event.kind == physics::EventKind::puck_bat && (event.body == bot || event.other == bot) ? 1 : 0;
+    goals = game.score().left + game.score().right;
+    is_as_recorded = game.hash() == log.hash;
+  }
+  game::KeyLog log;
+  int own_keys = 0, bot_keys = 0, touches = 0;
+  std::uint32_t goals = 0;
+  bool is_as_recorded = false;
+};
+
+/// The person holds a key for a second and then stands: all else is the bot's. Countdown to 3.9 s, pause at 16 s, all in
+/// frames of 1/60 s.
 TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
-  for (const std::string downs : {"", "0.6 tap down\n", "0.6 tap down\n0.7 tap down\n"})
-    EXPECT_EQ(play("", "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 tap escape\n5.2 tap down\n5.3 tap down\n5.5 tap enter\n6 end\n"), 0) << said_;
+  std::uint32_t goals = 0;
+  for (int bot = 0; bot < 3; ++bot) {
+    const std::string downs = bot == 0 ? "" : bot == 1 ? "0.6 tap down\n" : "0.6 tap down\n0.7 tap down\n";
+    const std::string script = "0.2 tap down\n0.4 tap enter\n" + downs + "0.8 tap enter\n5 down w\n6 up w\n" +
+                               "16 tap escape\n16.2 tap down\n16.3 tap down\n16.5 tap enter\n17 end\n";
+    ASSERT_EQ(play("--records kept-" + std::to_string(bot), script), 0) << said_;
+    ASSERT_TRUE(std::filesystem::exists(file("kept-" + std::to_string(bot) + "/match-1.keys"))) << "bot " << bot;
+    const Played played(file("kept-" + std::to_string(bot) + "/match-1.keys"));
+    EXPECT_TRUE(played.is_as_recorded);
+    EXPECT_NEAR(*played.log.until, 12.1, 0.3) << "it was stopped where the script says";
+    EXPECT_EQ(played.own_keys, 2);
+    EXPECT_GT(played.bot_keys, 12) << "bot " << bot << ": one a second at least";
+    EXPECT_GE(played.touches, 1) << "bot " << bot << " plays the puck";
+    goals += played.goals;
+  }
+  EXPECT_GE(goals, 1u) << "somebody scores against one who stands";
+}
+
+/// Each tap begins and ends in one frame; the menus see them one after the other.
+TEST_F(PlayCommand, SeesKeysThatAreDownAndUpWithinOneFrame) {
+  const auto tap = [](const std::string& key) { return "0.3 down " + key + "\n0.3 up " + key + "\n"; };
+  ASSERT_EQ(play("--records kept", tap("down") + tap("enter") + tap("down") + tap("enter") + "5 down w\n5 up w\n6 end\n"), 0) << said_;
+  const Played played(file("kept/match-1.keys"));
+  EXPECT_EQ(played.own_keys, 2);
+  ASSERT_FALSE(played.log.events.empty());
+  std::vector<double> instants;
+  for (const game::InputEvent& event : played.log.events)
+    if (event.player == 0) instants.push_back(event.time);
+  ASSERT_EQ(instants.size(), 2u);
+  EXPECT_NEAR(instants[1] - instants[0], 1.0 / 60.0, 2e-3) << "the bat feels it for a frame";
+}
+
+/// Bats of a crowd that nobody plays stand where the scene put them, each in its team's colour.
+TEST_F(PlayCommand, ShowsAWatcherEveryBatOfARunningServerWhereItIs) {
+  loadgen::Process server(test::binary_folder() + "/bin/rink-serve", {"--scene", "crowd", "--bat-count", "6", "--puck-count", "1", "--seed", "3", "--port", "0"}, {});
+  std::optional<std::string> place;
+  for (int i = 0; i < 500 && !place; ++i) server.attend(std::chrono::milliseconds(10)), place = server.line_after("listening on ");
+  ASSERT_TRUE(place) << server.last_words();
+  ASSERT_EQ(play("--camera above --watch " + *place, "1.5 tap i\n2 picture watched.png\n2.1 end\n"), 0) << said_;
+  EXPECT_EQ(said_, "");
+  const Image picture = read_png(file("watched.png"));
+  const game::Game game(game::chosen_scene({.scene = "crowd", .bat_count = 6, .puck_count = 1, .seed = 3}));
+  const physics::Field& field = game.world().spec().field;
+  const double aspect = static_cast<double>(picture.width) / picture.height;
+  const Sight sight(camera_of(field, {.viewpoint = Viewpoint::above}, aspect), static_cast<float>(aspect));
+  for (std::uint32_t player = 0; player < 6; ++player) {
+    const Vector2 at = game.position(*game.bat(player));
+    const Eigen::Vector2f window = sight.project({static_cast<float>(at.x()), static_cast<float>(at.y()), 0.0f});
+    const auto pixel_at = [&](int dx, int dy) {
+      const int x = static_cast<int>((0.5 * static_cast<double>(window.x()) + 0.5) * picture.width) + dx;
+      const int y = static_cast<int>((0.5 - 0.5 * static_cast<double>(window.y())) * picture.height) + dy;
+      return static_cast<std::size_t>((y * picture.width + x) * picture.channels);
+    };
+    const bool is_red = game.entity(*game.bat(player)).team == game::Team::left;
+    int most = -255;  // by how much the team's colour is stronger than the other's, in the pixels about the middle
+    for (int dx = -2; dx <= 2; ++dx)
+      for (int dy = -2; dy <= 2; ++dy) {
+        const std::size_t pixel = pixel_at(dx, dy);
+        const int red = picture.pixels[pixel], blue = picture.pixels[pixel + 2];
+        most = std::max(most, is_red ? red - blue : blue - red);
+      }
+    EXPECT_GT(most, 60) << "bat " << player;
+  }
 }
 
 TEST_F(PlayCommand, SaysWhatIsWrongWithTheSettings) {

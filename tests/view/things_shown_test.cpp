@@ -1,9 +1,11 @@
 // Every body where it is, in its own shape: a picture with it against one without it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <string>
 
 #include "game/view/picture_of.h"
 #include "game/view/render/image_file.h"
@@ -47,21 +49,21 @@ class ThingsShown : public ::testing::Test {
     return read_pixels(target_->framebuffer(), width, height);
   }
 
-  /// Which part of the points of the top of `thing` differs between two pictures. A point is given in halves of its sides,
-  /// from -1 to 1 each way on its top.
   struct Shape {
     const Thing& thing;
     const ViewChoice& choice;
     const physics::Field& field;
   };
-  template <class IsWanted>
-  static double part_that_differs(const Image& a, const Image& b, const Shape& shape, double reach, const IsWanted& is_wanted) {
+  /// The part of the points of the thing's top for which `is_so(pixel)` holds, `pixel` being the place of its first channel. A
+  /// point is given in halves of the thing's sides, from -reach to reach each way.
+  template <class IsWanted, class IsSo>
+  static double part_of_top(const Image& image, const Shape& shape, double reach, const IsWanted& is_wanted, const IsSo& is_so) {
     const Sight sight(camera_of(shape.field, shape.choice, aspect), static_cast<float>(aspect));
     MatchSight alone;
     alone.field = shape.field;
     alone.things = {shape.thing};
     const float top = shape.choice.viewpoint == Viewpoint::above ? 0.0f : picture_of(alone, {}, shape.choice, aspect).pieces[0].height;
-    int differ = 0, all = 0;
+    int so = 0, all = 0;
     constexpr int steps = 10;
     for (int i = -steps; i <= steps; ++i)
       for (int j = -steps; j <= steps; ++j) {
@@ -72,14 +74,26 @@ class ThingsShown : public ::testing::Test {
         const int x = static_cast<int>(std::floor((0.5 * static_cast<double>(window.x()) + 0.5) * width));
         const int y = static_cast<int>(std::floor((0.5 - 0.5 * static_cast<double>(window.y())) * height));
         if (x < 0 || y < 0 || x >= width || y >= height) continue;
-        const auto pixel = static_cast<std::size_t>((y * width + x) * a.channels);
-        int most = 0;
-        for (std::size_t channel = 0; channel < 3; ++channel) most = std::max(most, std::abs(int{a.pixels[pixel + channel]} - int{b.pixels[pixel + channel]}));
-        differ += most > 4 ? 1 : 0;  // a steel top on a white table is not much
+        so += is_so(static_cast<std::size_t>((y * width + x) * image.channels)) ? 1 : 0;
         ++all;
       }
     EXPECT_GT(all, 0);
-    return static_cast<double>(differ) / std::max(1, all);
+    return static_cast<double>(so) / std::max(1, all);
+  }
+  template <class IsWanted>
+  static double part_that_differs(const Image& a, const Image& b, const Shape& shape, double reach, const IsWanted& is_wanted) {
+    return part_of_top(a, shape, reach, is_wanted, [&](std::size_t pixel) {
+      int most = 0;
+      for (std::size_t channel = pixel; channel < pixel + 3; ++channel) most = std::max(most, std::abs(int{a.pixels[channel]} - int{b.pixels[channel]}));
+      return most > 4;  // a steel top on a white table is not much
+    });
+  }
+  /// Nearly black with a yellow ring, or of the team's colour, which no shadow is.
+  static bool has_own_colour(const Image& image, std::size_t pixel, const Thing& thing) {
+    const int red = image.pixels[pixel], green = image.pixels[pixel + 1], blue = image.pixels[pixel + 2];
+    if (thing.kind == physics::BodyKind::puck) return std::max({red, green, blue}) < 70 || red - blue > 60;
+    if (thing.kind == physics::BodyKind::bat) return (thing.team == game::Team::left ? red - blue : blue - red) > 40;
+    return true;
   }
 
   static MatchSight without(MatchSight sight, std::uint32_t id) {
@@ -91,7 +105,10 @@ class ThingsShown : public ::testing::Test {
   void expect_shown(const Image& all, const Image& less, const Shape& shape) {
     const bool is_bat = shape.thing.kind == physics::BodyKind::bat;
     const auto is_inside = [&](double u, double v) { return is_bat || u * u + v * v <= 0.8 * 0.8; };
-    EXPECT_GT(part_that_differs(all, less, shape, 0.8, is_inside), 0.8) << "thing " << shape.thing.id << " from viewpoint " << static_cast<int>(shape.choice.viewpoint);
+    const auto has_colour = [&](std::size_t pixel) { return has_own_colour(all, pixel, shape.thing); };
+    const auto which = [&] { return "thing " + std::to_string(shape.thing.id) + " from viewpoint " + std::to_string(static_cast<int>(shape.choice.viewpoint)); };
+    EXPECT_GT(part_that_differs(all, less, shape, 0.8, is_inside), 0.8) << which();
+    EXPECT_GT(part_of_top(all, shape, 0.8, is_inside, has_colour), is_bat ? 0.15 : 0.5) << which() << ", of which most of a bat's top is a pale inlay";
   }
   /// From above and without shadows nothing is seen beside it.
   void expect_nothing_beside(const Image& all, const Image& less, const Shape& shape) {
