@@ -69,6 +69,7 @@ class AmbassadorParts : public FomLookup {
   bool take_execution(Reader& reader);
   bool take_report(Reader& reader, MessageKind kind);
   bool take_federate(Reader& reader, std::uint8_t kind);
+  bool take_expulsion(Reader& reader);
   bool take_digest(Reader& reader);
   bool take_provide_update(Reader& reader);
   // Objects beyond updates (ambassador_objects.cpp).

@@ -20,7 +20,7 @@ bool Ambassador::receive(Bytes bytes) {
 }
 
 bool AmbassadorParts::take_bytes(Bytes bytes) {
-  const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); });
+  const bool is_understood = incoming_.receive(bytes, [] { return frame_max_to_federate; }, [this](Bytes frame) { return take_frame(frame); }) == Framing::sound;
   if (!is_understood) lose("the RTI sent what this version does not understand");
   if (!held_datagrams_.empty()) apply_held_datagrams();
   return is_understood && (!queue_ || queue_->waiting_bytes() <= waiting_callbacks_max || (lose("too many callbacks wait to be evoked"), false));
@@ -69,6 +69,7 @@ bool AmbassadorParts::take_message(Reader& reader) {
   reader.number(kind);
   const auto name = static_cast<MessageKind>(kind);
   if (clock_.holds_receive_order() && timed_ == nullptr && is_receive_ordered(name)) return postpone(reader, name);
+  if (name == MessageKind::expelled) return take_expulsion(reader);
   if (name == MessageKind::joined || name == MessageKind::refused || name == MessageKind::fom_digest) return take_membership(reader, kind);
   if (name >= MessageKind::federation_execution_created && name <= MessageKind::federation_execution) return take_host_answer(reader, name);
   if (name >= MessageKind::federation_report && name <= MessageKind::report_end) return take_report(reader, name);
@@ -126,6 +127,14 @@ bool AmbassadorParts::take_membership(Reader& reader, std::uint8_t kind) {
   frames_heard_ = 1;
   if (declared_.is_on(Advisory::attribute_relevance)) say(AdvisorySwitchMessage{true});
   callbacks_.joined(federate_);
+  return true;
+}
+
+/// The RTI's last message. What it says is why the connection is lost.
+bool AmbassadorParts::take_expulsion(Reader& reader) {
+  ExpelledMessage message;
+  if (!exchange(reader, message)) return false;
+  lose("the RTI closed the connection: " + std::string(message.why));
   return true;
 }
 

@@ -35,6 +35,8 @@ enum class Violation : std::uint8_t {
 };
 inline constexpr std::size_t violation_count = 10;
 const char* to_string(Violation violation);
+/// The same as a sentence about whoever did it, for the message with which it is dropped.
+const char* explain(Violation violation);
 
 struct FederationSettings {
   std::string federation = "rink";

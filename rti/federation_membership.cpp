@@ -70,15 +70,17 @@ void FederationExecution::Parts::advance_clock(double now) {
     if (connection.phase == Phase::unknown) continue;
     if (connection.has_spoken) connection.last_heard = now;
     connection.has_spoken = false;
-    if (now - connection.last_heard > settings_.patience.lost_after_s) expel(id, Violation::silent, ResignReason::lost, "silent for too long");
+    if (now - connection.last_heard > settings_.patience.lost_after_s) expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
   }
 }
 
 void FederationExecution::Parts::expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why) {
   ++counters_.drops[static_cast<std::size_t>(violation)];
-  if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, reason);
+  // A stranger who breaks a rule gets no answer: it may be another program altogether.
+  const bool was_joined = connections_[connection].phase == Phase::joined;
+  if (was_joined) remove_federate(connections_[connection].federate, reason);
   connections_[connection] = {};
-  farewells_.push_back({connection, std::string(why), {}});
+  farewells_.push_back({connection, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
 FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection, Reader& reader) {

@@ -1,5 +1,6 @@
 // What federates say: checked once, here; then it is state.
 #include <algorithm>
+#include <cassert>
 
 #include "rti/federation_parts.h"
 #include "rti/wire/update_block.h"
@@ -22,10 +23,14 @@ void FederationExecution::Parts::receive(ConnectionId id, Bytes bytes) {
     outcome = take_frame(id, frame);
     return !outcome && connections_[id].phase != Phase::unknown;
   };
-  const bool is_complete = reader.receive(bytes, limit, take);
-  if (is_complete) connections_[id].reader = std::move(reader);
-  else if (reader.is_oversized()) expel(id, Violation::oversized, ResignReason::misbehaved, "a frame longer than allowed");
-  else if (outcome) expel(id, *outcome, ResignReason::misbehaved, to_string(*outcome));
+  switch (reader.receive(bytes, limit, take)) {
+    case Framing::sound: connections_[id].reader = std::move(reader); break;
+    case Framing::empty: expel(id, Violation::malformed, ResignReason::misbehaved, "it sent a frame without a message"); break;
+    case Framing::oversized: expel(id, Violation::oversized, ResignReason::misbehaved, explain(Violation::oversized)); break;
+    case Framing::stopped:
+      if (outcome) expel(id, *outcome, ResignReason::misbehaved, explain(*outcome));
+      assert(connections_[id].phase == Phase::unknown);
+  }
 }
 
 Outcome FederationExecution::Parts::take_frame(ConnectionId id, Bytes frame) {

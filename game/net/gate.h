@@ -6,6 +6,7 @@
 
 #include "rti/transport/guarded_transport.h"
 #include "rti/transport/rate_limited_transport.h"
+#include "rti/wire/federation_messages.h"
 
 namespace rink::game {
 
@@ -21,7 +22,11 @@ class Gate {
  public:
   /// `socket` must outlive it. Throws std::runtime_error, which names the key file, if it can't be read or is too short.
   Gate(rti::Transport& socket, const GateSettings& settings, const rti::GuardedTransport::Clock& now_s) : transport_(&socket) {
-    if (settings.rate_limit.bytes_per_s > 0.0 || settings.rate_limit.frames_per_s > 0.0) transport_ = &limited_.emplace(*transport_, settings.rate_limit, now_s);
+    if (settings.rate_limit.bytes_per_s > 0.0 || settings.rate_limit.frames_per_s > 0.0) {
+      rti::RateLimit limit = settings.rate_limit;
+      limit.last_words = rti::framed(rti::ExpelledMessage{rti::to_string(rti::CloseReason::too_fast)});
+      transport_ = &limited_.emplace(*transport_, limit, now_s);
+    }
     if (settings.key_file.empty()) return;
     key_ = rti::SharedKey::load(settings.key_file);
     transport_ = &guarded_.emplace(*transport_, *key_, rti::GuardSettings{.role = settings.role, .federation = settings.federation}, now_s);

@@ -78,6 +78,7 @@ bool RateLimitedTransport::allows(ConnectionId connection, Bytes bytes, bool is_
   if (meter->bytes.take(static_cast<double>(bytes.size()), now) && (!has_frames || meter->frames.take(is_datagram ? 1 : meter->count_frames(bytes), now))) return true;
   meter->is_closing = true;
   ++closed_;
+  if (const Bytes words = limit_.last_words; !words.empty()) inner_.send(connection, std::span(&words, 1));
   inner_.close(connection);
   return false;
 }

@@ -14,6 +14,7 @@ namespace rink::rti {
 struct RateLimit {
   double bytes_per_s = 0.0;
   double frames_per_s = 0.0;  ///< a federate sends one with each of its flushes (docs/wire.md)
+  std::vector<std::byte> last_words{};  ///< sent to whoever exceeds it before its connection closes
 };
 
 /// Any transport whose connections are held to a limit. Who exceeds it is closed, and its end reported with `too_fast`; what it sent too much is not passed on.

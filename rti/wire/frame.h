@@ -60,35 +60,41 @@ class FrameWriter {
   std::uint64_t frame_count_ = 0;
 };
 
+/// What became of bytes handed to a `FrameReader`. Whatever is not `sound` ends the stream: what was not read is lost.
+enum class Framing : std::uint8_t {
+  sound,      ///< all of it is read, or kept until its frame is whole
+  stopped,    ///< the taker of a frame wants no more
+  empty,      ///< a frame without a message: a stream of zeros is no conversation
+  oversized,  ///< a frame longer than allowed
+};
+
 /// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and never believes a length before they are there.
 class FrameReader {
  public:
-  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops and returns false as soon as it does, or at a length of 0 or beyond the limit. `limit()` is asked before each
-  /// frame, since it may change with what was said. Nothing is copied of frames that arrive whole.
+  /// Gives each payload to `take`, a callable `bool(Bytes)`; stops as soon as it returns false, or at a length of 0 or beyond the limit. `limit()` is asked before each
+  /// frame, since it may change with what was said. Nothing is copied of frames that arrive whole. The caller must end the connection unless all was sound.
   template <class Limit, class Take>
-  bool receive(Bytes bytes, Limit limit, Take take) {
+  [[nodiscard]] Framing receive(Bytes bytes, Limit limit, Take take) {
     while (!bytes.empty()) {
       if (partial_.empty() && bytes.size() >= frame_header_size) {
         const std::size_t size = length(bytes);
-        if (!is_allowed(size, limit())) return false;
+        if (const Framing judged = judge(size, limit()); judged != Framing::sound) return judged;
         if (bytes.size() >= frame_header_size + size) {
-          if (!take(bytes.subspan(frame_header_size, size))) return false;
+          if (!take(bytes.subspan(frame_header_size, size))) return Framing::stopped;
           bytes = bytes.subspan(frame_header_size + size);
           continue;
         }
       }
-      if (!fill(bytes, frame_header_size)) return true;
+      if (!fill(bytes, frame_header_size)) return Framing::sound;
       const std::size_t size = length(partial_);
-      if (!is_allowed(size, limit())) return false;
-      if (!fill(bytes, frame_header_size + size)) return true;
+      if (const Framing judged = judge(size, limit()); judged != Framing::sound) return judged;
+      if (!fill(bytes, frame_header_size + size)) return Framing::sound;
       complete_.swap(partial_);
       partial_.clear();
-      if (!take(Bytes(complete_).subspan(frame_header_size))) return false;
+      if (!take(Bytes(complete_).subspan(frame_header_size))) return Framing::stopped;
     }
-    return true;
+    return Framing::sound;
   }
-  /// True if it was a length beyond the limit that stopped `receive`.
-  bool is_oversized() const { return is_oversized_; }
   std::size_t waiting_bytes() const { return partial_.size(); }
   std::size_t memory_bytes() const { return partial_.capacity() + complete_.capacity(); }
 
@@ -98,10 +104,9 @@ class FrameReader {
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
-  /// A frame without a message is nobody's: a stream of zeros is no conversation.
-  bool is_allowed(std::size_t size, std::size_t limit) {
-    is_oversized_ = size > limit;
-    return !is_oversized_ && size > 0;
+  static Framing judge(std::size_t size, std::size_t limit) {
+    if (size == 0) return Framing::empty;
+    return size > limit ? Framing::oversized : Framing::sound;
   }
   /// Moves bytes to `partial_` until it has `size`; true if it has.
   bool fill(Bytes& bytes, std::size_t size) {
@@ -114,7 +119,6 @@ class FrameReader {
   }
 
   std::vector<std::byte> partial_, complete_;
-  bool is_oversized_ = false;
 };
 
 }  // namespace rink::rti

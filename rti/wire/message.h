@@ -19,7 +19,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 7;
+inline constexpr std::uint16_t protocol_version = 8;
 inline constexpr std::size_t text_max = 255;                 ///< longest name or label [bytes]
 inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parameters of one interaction [bytes]
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
@@ -61,9 +61,11 @@ enum class MessageKind : std::uint8_t {
   ownership_notice = 92, inform_ownership = 93,
   // admission
   challenge = 118, admitted = 119,
+  // the connection
+  expelled = 120,
   // objects and declarations
   instance_names_answer = 104, class_relevance = 105, object_relevance = 106, transportation = 107,
-  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 120 to 127 the connection
+  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 121 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -288,6 +290,16 @@ struct RefusedMessage {
 template <class Stream>
 bool exchange(Stream& stream, RefusedMessage& message) {
   return stream.number(message.refusal) && stream.text(message.why, text_max);
+}
+
+/// The last message to a federate that is dropped: why. Its connection closes.
+struct ExpelledMessage {
+  static constexpr MessageKind kind = MessageKind::expelled;
+  std::string_view why;
+};
+template <class Stream>
+bool exchange(Stream& stream, ExpelledMessage& message) {
+  return stream.text(message.why, text_max);
 }
 
 struct FederateJoinedMessage {

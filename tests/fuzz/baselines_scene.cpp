@@ -69,7 +69,11 @@ class Sound final : public Outlet {
     require((connection == 0 ? owner : watch).receive(frame), "what the RTI says is understood");
     if (connection == 1 && boats[2]) hear(frame);
   }
-  void drop(ConnectionId, std::string_view) override { require(false, "acknowledgements cost nobody the connection"); }
+  void drop(ConnectionId connection, std::string_view) override {
+    require(is_malformed && connection == 1, "acknowledgements cost nobody the connection");
+    is_dropped = true;
+  }
+  bool is_malformed = false, is_dropped = false;  ///< what the watch says; the watch
 
  private:
   void hear(std::vector<std::byte> frame) {
@@ -109,6 +113,26 @@ std::vector<std::byte> rounded(const std::vector<std::byte>& value) {
 }
 
 }  // namespace
+
+/// Acknowledgements that break off or carry too much, from a watch that hears periodic state.
+void refuse_baselines(Bytes bytes) {
+  for (const bool is_cut : {true, false}) {
+    Sound sound;
+    Input input(bytes);
+    for (int i = 0; i < 3; ++i) {
+      sound.owner.update_attribute_values(sound.boats[0], AttributeSet{rti::testing::track}, track_of(input.byte(), input.byte(), 1.0f, 2.0f), {0.1 * i, 0});
+      sound.tick();
+    }
+    std::vector<std::byte> said = framed(AcknowledgeKeyframeMessage{static_cast<std::uint16_t>(input.byte())});
+    if (is_cut) said.pop_back();
+    else said.push_back(std::byte{255});
+    said[0] = static_cast<std::byte>(said.size() - frame_header_size);
+    sound.said.push_back(said);
+    sound.is_malformed = true;
+    sound.tick();
+    require(sound.is_dropped, "an acknowledgement that is none is the last that its sender says");
+  }
+}
 
 void drive_baselines(Bytes bytes) {
   Input input(bytes);

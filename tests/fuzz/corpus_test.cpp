@@ -66,6 +66,11 @@ TEST_P(Corpus, IsTakenWithoutHarmAlsoWhenChangedAtRandom) {
   EXPECT_GT(changed, 0u) << "seed " << seed;
 }
 
+TEST_P(Corpus, ThenWhatIsMalformedIsRefused) {
+  for (const auto& input : corpus_of(GetParam().name)) GetParam().refuse(input);
+  GetParam().refuse({});
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(all_harnesses()), [](const auto& harness) { return std::string(harness.param.name); });
 
 }  // namespace

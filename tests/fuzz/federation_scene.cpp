@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "rti/wire/datagram.h"
 #include "tests/fuzz/harness.h"
 #include "tests/rti/rig.h"
 
@@ -74,6 +75,27 @@ class Scene final : public Outlet {
     }
   }
 
+  /// Strangers in whatever state they are, and then in each state that there is, send what is malformed.
+  void refuse() {
+    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
+    for (ConnectionId who = 1; who <= strangers; ++who)
+      if (has(who)) must_drop(who, zeros);
+    const auto bytes = [](std::initializer_list<unsigned> values) {
+      std::vector<std::byte> all;
+      for (const unsigned value : values) all.push_back(static_cast<std::byte>(value));
+      return all;
+    };
+    const std::array malformed{bytes({0, 0, 0, 0}), bytes({1, 0, 0, 0, 255}), bytes({255, 255, 255, 255, 3}), bytes({2, 0, 0, 0, 1, 0x52})};
+    for (const bool is_joined : {false, true})
+      for (const std::vector<std::byte>& each : malformed) {
+        if (is_joined) enter(1, 0);
+        else execution_.connect(1), is_connected_[1] = true;
+        tick();
+        require(is_connected_[1], "who joins by rule is let in");
+        must_drop(1, each);
+      }
+  }
+
   void end() {
     for (ConnectionId who = 1; who <= strangers; ++who) leave(who);
     tick();
@@ -88,6 +110,11 @@ class Scene final : public Outlet {
   bool has(ConnectionId who) {
     if (!is_connected_[who]) return false;
     return true;
+  }
+  void must_drop(ConnectionId who, Bytes malformed) {
+    execution_.receive(who, malformed);
+    tick();
+    require(!is_connected_[who], "what is malformed is the last that its sender says");
   }
   void say(ConnectionId who, Bytes bytes) {
     may_leave_objects_ |= std::ranges::find(bytes, static_cast<std::byte>(MessageKind::resign_directive)) != bytes.end();
@@ -225,6 +252,29 @@ class Air final : public Outlet {
       default: return execution_.receive_datagram(what / 8 % 4, input.part(input.byte()));
     }
   }
+  /// The first bytes of a datagram are none, and neither is noise.
+  void refuse() {
+    flying_.clear();
+    ambassadors_[0].update_attribute_values(object_, level_, rti::testing::values_of(now_), {now_, 0});
+    tick();
+    if (flying_.empty()) return;  // as long as none of the lost ones are acknowledged
+    // A head of no number and after no frame, so that what follows is judged at once and each time.
+    std::vector<std::byte> whole = flying_.back(), noise(40, std::byte{255});
+    std::ranges::fill(std::span(whole).first(DatagramHead::size), std::byte{0});
+    std::ranges::fill(std::span(noise).first(DatagramHead::size), std::byte{0});
+    const auto hear = [this](Bytes datagram) {
+      const auto before = ambassadors_[1].counters();
+      ambassadors_[1].receive_datagram(datagram);
+      const auto after = ambassadors_[1].counters();
+      require(after.updates_reflected == before.updates_reflected, "nothing is reflected of what is malformed");
+      return after.datagrams_ignored - before.datagrams_ignored;
+    };
+    require(hear(noise) == 1, "noise is ignored and counted");
+    for (std::size_t size = 0; size < DatagramHead::size; ++size) require(hear(Bytes(whole).first(size)) == 1, "half a head is ignored and counted");
+    require(hear(Bytes(whole).first(DatagramHead::size + 1)) == 1, "a message without its content is ignored and counted");
+    // A cut behind a whole message leaves a shorter datagram in order.
+    for (std::size_t size = DatagramHead::size + 2; size < whole.size(); ++size) hear(Bytes(whole).first(size));
+  }
   void end() {
     tick();
     require(execution_.federate_count() == 2, "both are there at the end");
@@ -263,6 +313,41 @@ void drive_federation(Bytes bytes) {
   Scene scene;
   while (!input.is_empty()) scene.turn(input);
   scene.end();
+}
+
+void refuse_federation(Bytes bytes) {
+  Input input(bytes);
+  Scene scene;
+  while (!input.is_empty()) scene.turn(input);
+  scene.refuse();
+  scene.end();
+}
+
+void refuse_federate(Bytes bytes) {
+  const std::vector<std::byte> unknown{std::byte{255}}, cut{static_cast<std::byte>(MessageKind::discover_object), std::byte{7}};
+  std::vector<std::byte> empty, of_nothing, broken, oversized(frame_header_size, std::byte{255});
+  frame(empty, {});
+  frame(of_nothing, unknown);
+  frame(broken, cut);
+  for (const std::vector<std::byte>& each : {empty, of_nothing, broken, oversized}) {
+    Suspicious heard;
+    Ambassador ambassador(harbour(), heard);
+    ambassador.join("rink", "fuzzed", "tester");
+    std::vector<std::byte> spoken, payload;
+    JoinedMessage joined{.federate = 1, .object_block = bytes.empty() ? 0u : static_cast<unsigned>(bytes.front())};
+    write(payload, joined);
+    frame(spoken, payload);
+    require(ambassador.receive(spoken), "a join is understood");
+    require(!ambassador.receive(each) && !heard.lost.empty(), "a federate does not go on after what the RTI cannot have sent, and says why");
+  }
+}
+
+void refuse_datagrams(Bytes bytes) {
+  Input input(bytes);
+  Air air;
+  while (!input.is_empty()) air.turn(input);
+  air.refuse();
+  air.end();
 }
 
 void drive_federate(Bytes bytes) {

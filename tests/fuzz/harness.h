@@ -10,10 +10,14 @@
 
 namespace rink::fuzz {
 
-/// Takes any bytes at all. Returns if the reader did what it promises, aborts or trips a sanitizer if not.
+/// What every reader of bytes from elsewhere owes: it takes any bytes at all, and refuses what is malformed.
 struct Harness {
   const char* name;
+  /// Returns if the reader did with `input` what it promises, aborts or trips a sanitizer if not.
   void (*run)(rti::Bytes input);
+  /// Hands the reader `input` and then what is malformed whatever came before it, in each way that the reader knows. Returns if all of that was refused: a connection dropped,
+  /// a value or file turned away, nothing of it taken.
+  void (*refuse)(rti::Bytes input);
 };
 
 /// Of the RTI, of the game and of interest management, all lists one after the other.

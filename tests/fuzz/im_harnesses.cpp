@@ -152,6 +152,28 @@ void interest_changes(rti::Bytes bytes) {
   else stream.match();
 }
 
+/// Rectangles that are none, ids beyond the limit and flights that nobody can fly.
+void refuse_interest_changes(rti::Bytes bytes) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
+  Input input(bytes);
+  im::CheckedFilter filter(im::make_filter(expressions[input.byte() % expressions.size()], settings()), 24);
+  const std::uint32_t id = input.byte() % 24;
+  for (const im::Region& each : {im::Region{none, 0.0, 1.0, 1.0}, im::Region{0.0, -infinite, 1.0, 1.0}, im::Region{1.0, 0.0, 0.0, 1.0}, im::Region{0.0, 1.0, 1.0, 0.0}}) {
+    require(filter.add_entity(id, each).has_value(), "an update region that is none is refused");
+    require(filter.add_subscriber(id, each).has_value(), "a subscription region that is none is refused");
+  }
+  require(filter.add_entity(24, {0.0, 0.0, 1.0, 1.0}).has_value() && filter.add_subscriber(24, {0.0, 0.0, 1.0, 1.0}).has_value(), "an id beyond the limit is refused");
+  require(filter.move_entity(id, {0.0, 0.0, 1.0, 1.0}).has_value() && filter.remove_entity(id).has_value(), "nobody moves or removes whoever is not there");
+  require(!filter.add_entity(id, {0.0, 0.0, 1.0, 1.0}) && !filter.add_subscriber(id, {0.0, 0.0, 1.0, 1.0}), "what is in order is taken");
+  require(filter.turn(id, {none, 1.0}).has_value(), "a heading that is none is refused");
+  require(filter.fly_entity(id, {.x = none}).has_value(), "a flight that is none is refused");
+}
+
+void refuse_scheme_expressions(rti::Bytes bytes) {
+  const std::string text = text_of(bytes) + " with ((";
+  require(im::complaint_about(text, settings()).has_value() && im::make_filter(text, settings()) == nullptr, "an expression that breaks off is refused");
+}
+
 void scheme_expressions(rti::Bytes bytes) {
   const std::string text = text_of(bytes);
   const auto complaint = im::complaint_about(text, settings());
@@ -169,7 +191,7 @@ void scheme_expressions(rti::Bytes bytes) {
 }  // namespace
 
 std::span<const Harness> im_harnesses() {
-  static constexpr std::array<Harness, 2> list{{{"interest_changes", interest_changes}, {"scheme_expression", scheme_expressions}}};
+  static constexpr std::array<Harness, 2> list{{{"interest_changes", interest_changes, refuse_interest_changes}, {"scheme_expression", scheme_expressions, refuse_scheme_expressions}}};
   return list;
 }
 

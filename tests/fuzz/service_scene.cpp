@@ -172,6 +172,26 @@ class Quay final : public Outlet {
   ObjectHandle own;
   FederationExecution& execution() { return execution_; }
 
+  /// Strangers send each message of the group without its last byte, and frames without a message, and are dropped.
+  void refuse(std::span<const Shape> shapes) {
+    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
+    const auto must_drop = [this](const auto& speak) {
+      if (!strangers_[1].is_here) enter(1);
+      require(strangers_[1].is_here, "who joins by rule is let in");
+      speak();
+      tick();
+      require(!strangers_[1].is_here, "what is malformed is the last that its sender says");
+    };
+    must_drop([&] { execution_.receive(1, zeros); });
+    for (const Shape& shape : shapes) {
+      if (shape.fields.empty()) continue;
+      Input none({});
+      std::vector<std::byte> message = Scribe(none, objects_).message(shape);
+      message.pop_back();
+      must_drop([&] { say(1, message); });
+    }
+  }
+
   void send(ConnectionId connection, std::span<const Bytes> parts) override {
     for (const Bytes part : parts) {
       if (connection == 0) require(witness.receive(part), "the witness understands what it hears");
@@ -255,12 +275,22 @@ class Quay final : public Outlet {
   double now_ = 0.0;
 };
 
+constexpr std::array time_shapes{Shape{MessageKind::enable_time_regulation, "d"}, Shape{MessageKind::time_switch, "b"},   Shape{MessageKind::modify_lookahead, "d"},
+                                Shape{MessageKind::advance_request, "bd"},       Shape{MessageKind::timed_send, "vsc"}, Shape{MessageKind::retract, "v"},
+                                Shape{MessageKind::query_time_bounds, ""},       Shape{MessageKind::timed_send, "vsc"}};
+
+constexpr std::array ownership_shapes{Shape{MessageKind::ownership_request, "bAtO"}, Shape{MessageKind::query_ownership, "ob"}, Shape{MessageKind::resign_directive, "b"},
+                                Shape{MessageKind::publish_object_class, "wa"}, Shape{MessageKind::delete_object, "o"},    Shape{MessageKind::ownership_request, "bAtO"},
+                                Shape{MessageKind::local_delete, "o"}};
+
+constexpr std::array regions_shapes{Shape{MessageKind::create_region, "r"},       Shape{MessageKind::create_region_over, "rq"}, Shape{MessageKind::modify_ranges, "rg"},
+                                Shape{MessageKind::regional_class, "wbp"},    Shape{MessageKind::regional_interaction, "wbl"}, Shape{MessageKind::associate_regions, "ubp"},
+                                Shape{MessageKind::interaction_within, "wslt"}, Shape{MessageKind::associate_region, "ur"},  Shape{MessageKind::delete_region, "r"},
+                                Shape{MessageKind::subscribe_object_class, "war"}};
+
 }  // namespace
 
 void drive_time(Bytes bytes) {
-  static constexpr std::array shapes{Shape{MessageKind::enable_time_regulation, "d"}, Shape{MessageKind::time_switch, "b"},   Shape{MessageKind::modify_lookahead, "d"},
-                                     Shape{MessageKind::advance_request, "bd"},       Shape{MessageKind::timed_send, "vsc"}, Shape{MessageKind::retract, "v"},
-                                     Shape{MessageKind::query_time_bounds, ""},       Shape{MessageKind::timed_send, "vsc"}};
   Input input(bytes);
   Quay quay;
   quay.witness.enable_time_constrained();
@@ -268,7 +298,7 @@ void drive_time(Bytes bytes) {
   double asked = 0.0;
   bool is_asking = false;
   while (!input.is_empty()) {
-    quay.turn(input, shapes);
+    quay.turn(input, time_shapes);
     is_asking = is_asking && quay.heard.time < asked;
     if (is_asking || !quay.witness.clock().is_constrained()) continue;
     is_asking = true;
@@ -278,14 +308,18 @@ void drive_time(Bytes bytes) {
   require(quay.witness.is_joined(), "the witness is there at the end");
 }
 
+void refuse_time(Bytes bytes) {
+  Input input(bytes);
+  Quay quay;
+  while (!input.is_empty()) quay.turn(input, time_shapes);
+  quay.refuse(time_shapes);
+}
+
 void drive_ownership(Bytes bytes) {
-  static constexpr std::array shapes{Shape{MessageKind::ownership_request, "bAtO"}, Shape{MessageKind::query_ownership, "ob"}, Shape{MessageKind::resign_directive, "b"},
-                                     Shape{MessageKind::publish_object_class, "wa"}, Shape{MessageKind::delete_object, "o"},    Shape{MessageKind::ownership_request, "bAtO"},
-                                     Shape{MessageKind::local_delete, "o"}};
   Input input(bytes);
   Quay quay;
   while (!input.is_empty()) {
-    quay.turn(input, shapes);
+    quay.turn(input, ownership_shapes);
     for (const AttributeHandle each : {rti::testing::position, rti::testing::speed}) require(quay.witness.is_attribute_owned_by_federate(quay.own, each), "what one owns is lost by one's own word only");
   }
   quay.tick();
@@ -296,11 +330,14 @@ void drive_ownership(Bytes bytes) {
   require(owner != quay.heard.owners.end() && owner->second == quay.witness.federate().value, "and the RTI knows it");
 }
 
+void refuse_ownership(Bytes bytes) {
+  Input input(bytes);
+  Quay quay;
+  while (!input.is_empty()) quay.turn(input, ownership_shapes);
+  quay.refuse(ownership_shapes);
+}
+
 void drive_regions(Bytes bytes) {
-  static constexpr std::array shapes{Shape{MessageKind::create_region, "r"},       Shape{MessageKind::create_region_over, "rq"}, Shape{MessageKind::modify_ranges, "rg"},
-                                     Shape{MessageKind::regional_class, "wbp"},    Shape{MessageKind::regional_interaction, "wbl"}, Shape{MessageKind::associate_regions, "ubp"},
-                                     Shape{MessageKind::interaction_within, "wslt"}, Shape{MessageKind::associate_region, "ur"},  Shape{MessageKind::delete_region, "r"},
-                                     Shape{MessageKind::subscribe_object_class, "war"}};
   Input input(bytes);
   Quay quay;
   const RegionHandle view = quay.witness.create_region();
@@ -311,12 +348,19 @@ void drive_regions(Bytes bytes) {
       quay.witness.set_region(view, {-2.0, -2.0, 0.25 * (i % 64), 8.0});
       quay.witness.commit_region_modifications(view);
     }
-    quay.turn(input, shapes);
+    quay.turn(input, regions_shapes);
   }
   quay.tick();
   quay.tick();
   for (const auto& [object, known] : quay.heard.objects)
     if (object != quay.own.value) require(known.is_in_scope == quay.execution().is_in_scope(quay.witness.federate(), {object}), "the witness knows its scope");
+}
+
+void refuse_regions(Bytes bytes) {
+  Input input(bytes);
+  Quay quay;
+  while (!input.is_empty()) quay.turn(input, regions_shapes);
+  quay.refuse(regions_shapes);
 }
 
 }  // namespace rink::fuzz

@@ -84,6 +84,15 @@ TEST(RateLimit, WhoSendsMoreBytesThanAllowedIsClosedAndNamed) {
   EXPECT_EQ(line.limited.closed(), 1u);
 }
 
+TEST(RateLimit, WhoExceedsItIsSentTheLastWordsFirst) {
+  LimitedLine line({.bytes_per_s = 1000.0, .last_words = bytes_of("too fast")});
+  line.say(frames(5, 246));
+  line.hear();
+  line.hear();
+  EXPECT_EQ(line.there.bytes, 8u);
+  EXPECT_EQ(line.there.closed, 1);
+}
+
 TEST(RateLimit, FramesCountHoweverTheyAreCut) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -22,6 +22,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  chosen->run({reinterpret_cast<const std::byte*>(data), size});
+  const rink::rti::Bytes input{reinterpret_cast<const std::byte*>(data), size};
+  chosen->run(input);
+  chosen->refuse(input);
   return 0;
 }

@@ -1,0 +1,148 @@
+// Whoever is dropped is dropped at once, whatever the rule it broke, and its last message says why.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rti/wire/federation_messages.h"
+#include "rti/wire/message.h"
+#include "tests/rti/bare.h"
+
+namespace rink::rti::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::vector<std::byte> empty_frame(frame_header_size);
+
+/// A federate on connection 1 of a bare execution, which speaks through its ambassador and, at times, past it.
+struct Offender {
+  Bare& bare;
+  Recorder heard{};
+  Ambassador ambassador{harbour(), heard};
+
+  explicit Offender(Bare& execution) : bare(execution) {
+    bare.execution.connect(1);
+    ambassador.join("rink", "offender", "tester");
+    bare.execution.receive(1, ambassador.outgoing());
+    ambassador.clear_outgoing();
+    hear();
+  }
+  void hear() {
+    bare.tick();
+    ambassador.receive(bare.sent[1]);
+    bare.sent[1].clear();
+  }
+};
+
+TEST(Expulsion, AFrameWithoutAMessageEndsTheConnectionOfAStranger) {
+  Bare bare;
+  bare.execution.connect(1);
+  bare.execution.receive(1, empty_frame);
+  EXPECT_EQ(bare.drops(Violation::malformed), 1u);
+  const std::uint64_t heard = bare.execution.counters().bytes_received;
+  bare.execution.receive(1, std::vector<std::byte>(1'000'000));
+  EXPECT_EQ(bare.execution.counters().bytes_received, heard) << "nothing more is taken from it";
+  bare.tick();
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+  EXPECT_THAT(bare.sent[1], IsEmpty()) << "a stranger who breaks a rule gets no answer";
+}
+
+TEST(Expulsion, AFrameWithoutAMessageEndsTheConnectionOfAFederate) {
+  Bare bare;
+  Offender offender(bare);
+  ASSERT_TRUE(offender.ambassador.is_joined());
+  bare.execution.receive(1, empty_frame);
+  bare.tick();
+  EXPECT_EQ(bare.dropped.count(1), 1u);
+  EXPECT_EQ(bare.execution.federate_count(), 1u);
+  EXPECT_THAT(bare.witness_heard.log, ::testing::Contains("offender misbehaved"));
+}
+
+TEST(Expulsion, AnEmptyFrameAfterOtherMessagesOfOneReadEndsTheConnectionToo) {
+  Bare bare;
+  Offender offender(bare);
+  std::vector<std::byte> said = frame_of(HeartbeatMessage{});
+  said.insert(said.end(), empty_frame.begin(), empty_frame.end());
+  const std::vector<std::byte> more = frame_of(HeartbeatMessage{});
+  said.insert(said.end(), more.begin(), more.end());
+  for (const std::byte each : said) bare.execution.receive(1, {&each, 1});
+  bare.tick();
+  EXPECT_EQ(bare.dropped.count(1), 1u) << "however the stream is cut";
+}
+
+struct Offence {
+  const char* name;
+  std::vector<std::byte> said;
+  const char* why;
+};
+
+std::vector<Offence> offences() {
+  std::vector<std::byte> oversized(frame_header_size, std::byte{255});
+  return {{"EmptyFrame", empty_frame, "without a message"},
+          {"OversizedFrame", oversized, "longer than allowed"},
+          {"UnknownKind", {std::byte{1}, {}, {}, {}, std::byte{250}}, "no message"},
+          {"SecondJoin", frame_of(join_of("again")), "a second time"},
+          {"UnknownClass", frame_of(PublishObjectClassMessage{99, 1}), "does not exist"},
+          {"UnpublishedClass", frame_of(RegisterObjectMessage{object_block, vessel_number, ""}), "had not published"},
+          {"ForeignObject", frame_of(DeleteObjectMessage{0}), "another federate owns"}};
+}
+
+class ExpulsionFor : public ::testing::TestWithParam<Offence> {};
+
+TEST_P(ExpulsionFor, IsExplainedToTheFederateInItsLastMessage) {
+  Bare bare;
+  ASSERT_EQ(bare.witness.register_object_instance(vessel).value, 0u);
+  bare.tick();
+  Offender offender(bare);
+  bare.execution.receive(1, GetParam().said);
+  offender.hear();
+  EXPECT_THAT(offender.heard.lost, HasSubstr(GetParam().why));
+  const std::string why = offender.heard.lost;
+  offender.ambassador.disconnected("closed by peer");
+  EXPECT_EQ(offender.heard.lost, why) << "the loss is reported once, with its reason";
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ExpulsionFor, ::testing::ValuesIn(offences()), [](const auto& offence) { return std::string(offence.param.name); });
+
+TEST(Expulsion, ForSilenceIsExplainedToo) {
+  Bare bare;
+  Offender offender(bare);
+  bare.pass(4.0);
+  bare.pass(8.0);
+  bare.pass(12.0);
+  offender.hear();
+  EXPECT_THAT(offender.heard.lost, HasSubstr("silent for too long"));
+}
+
+class ExpulsionOver : public ::testing::TestWithParam<Carrier> {};
+
+TEST_P(ExpulsionOver, ReachesTheFederateBeforeItsConnectionCloses) {
+  Rig rig(GetParam());
+  Station& station = rig.join("offender");
+  ASSERT_TRUE(station.ambassador.is_joined());
+  const Bytes bytes = empty_frame;
+  rig.client_transport().send(station.link->connection(), std::span(&bytes, 1));
+  rig.settle();
+  EXPECT_TRUE(station.link->is_finished());
+  EXPECT_THAT(station.heard.lost, HasSubstr("a frame without a message"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ExpulsionOver, ::testing::Values(Carrier::in_process, Carrier::tcp, Carrier::virtual_network), [](const auto& carrier) { return name_of(carrier.param); });
+
+TEST(Expulsion, BelongsToVersion8SoFederatesOfVersion7AreRefused) {
+  Bare bare;
+  bare.execution.connect(1);
+  JoinMessage join = join_of("old");
+  join.version = 7;
+  std::vector<std::byte> frame = frame_of(join);
+  bare.execution.receive(1, frame);
+  bare.tick();
+  Recorder heard;
+  Ambassador old(harbour(), heard);
+  old.join("rink", "old", "tester");
+  EXPECT_TRUE(old.receive(bare.sent[1]));
+  EXPECT_EQ(heard.refusal, Refusal::wrong_version);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
