@@ -90,12 +90,12 @@ bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& re
     const AttributeSet accepted = is_known ? arrivals_.accept({object}, message.object_class, attributes, order_of_datagram(head)) : AttributeSet();
     if (accepted.is_empty()) return ++counters_.updates_outdated, true;
     if (accepted != attributes) {
-      cut_values_.clear();
+      heard_values_.clear();
       for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
         const Bytes value = coded_value(object_class, attributes, {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
-        cut_values_.insert(cut_values_.end(), value.begin(), value.end());
+        heard_values_.insert(cut_values_.end(), value.begin(), value.end());
       }
-      values = cut_values_;
+      values = heard_values_;
     }
     if (is_coded(object_class, accepted)) {
       decoded_.clear();

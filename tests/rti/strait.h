@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -37,10 +38,12 @@ struct Ear : FederateAmbassador {
   std::map<std::uint32_t, Known> known;
   int reflections = 0, went_back = 0, confirmed = 0;
   std::string lost;
+  std::function<void()> meanwhile;  ///< what the federate does in a callback before it looks at the values
   void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override { known[object.value] = {}; }
   void remove_object_instance(ObjectHandle object) override { known.erase(object.value); }
   void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values, const Stamp&) override {
     ++reflections;
+    if (meanwhile) meanwhile();
     if (set.includes(height)) read(object, "height", set, values, known[object.value].height);
     if (set.includes(heading)) read(object, "heading", set, values, known[object.value].heading);
   }

@@ -125,6 +125,35 @@ TEST(UpwardDatagrams, WhatIsMadeReliableIsNotOvertakenByWhatWasSaidBefore) {
   EXPECT_EQ(scene.heard[1].went_back, 0);
 }
 
+TEST(UpwardDatagrams, SentWithinACallbackOfADatagramLeaveItsValuesAsTheyAre) {
+  Strait scene;
+  scene.listener.publish_object_class_attributes(buoy, number | height | heading);
+  scene.publisher.subscribe_object_class_attributes(buoy, height | heading);
+  const ObjectHandle own = scene.place(), theirs = scene.listener.register_object_instance(buoy);
+  scene.ticks(3);
+  scene.set(own, 1.0);
+  scene.ticks(2);  // from now on its updates go by datagram
+  scene.delivers = false;
+  scene.listener.update_attribute_values(theirs, height | heading, values_of(2.5, 10.0f), {scene.now, 0});
+  scene.tick();
+  ASSERT_FALSE(scene.down.empty());
+  const std::vector<std::byte> older = scene.down.back();
+  scene.down.clear();
+  scene.listener.update_attribute_values(theirs, heading, values_of(20.0f), {scene.now, 0});
+  scene.tick();
+  ASSERT_FALSE(scene.down.empty());
+  Ear& heard = scene.heard[0];
+  scene.publisher.receive_datagram(scene.down.back());
+  ASSERT_EQ(heard.known[theirs.value].heading, 20.0f);
+  // Of the older datagram only the height is still news; meanwhile the federate sends an update of which a part goes by the stream.
+  const int before = heard.reflections;
+  heard.meanwhile = [&] { scene.publisher.update_attribute_values(own, number | height, values_of(std::int32_t{7}, 99.0), {scene.now, 0}); };
+  scene.publisher.receive_datagram(older);
+  EXPECT_EQ(heard.reflections, before + 1);
+  EXPECT_EQ(heard.known[theirs.value].height, 2.5);
+  EXPECT_EQ(heard.known[theirs.value].heading, 20.0f);
+}
+
 TEST(UpwardDatagrams, WaitForTheFrameThatRegistersTheirObject) {
   Strait scene;
   scene.set(scene.place(), 0.0);
