@@ -2,6 +2,7 @@
 #include "rti/ambassador_say.h"
 
 #include <cassert>
+#include <cmath>
 #include <cstring>
 
 #include "rti/buffering/best_effort_outbox.h"
@@ -9,6 +10,15 @@
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {
+
+void AmbassadorParts::require_parameters(Bytes parameters) {
+  if (parameters.size() > parameters_max)
+    throw RtiException(HlaError::rti_internal_error, "the parameters of an interaction have " + std::to_string(parameters.size()) + " bytes; allowed are at most " + std::to_string(parameters_max));
+}
+
+void AmbassadorParts::require_stamp(const Stamp& stamp) {
+  if (!std::isfinite(stamp.time)) throw RtiException(HlaError::invalid_logical_time, "a time stamp is a finite number of seconds");
+}
 
 AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Patience& patience, CallbackModel model)
     : FomLookup(fom),
@@ -59,11 +69,24 @@ void AmbassadorParts::begin_updates(ObjectClassHandle object_class, AttributeSet
   open_ = {true, object_class, attributes, stamp, 0};
 }
 
+void AmbassadorParts::require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const {
+  if (!fom_.attributes(object_class).includes(attributes)) throw RtiException(HlaError::attribute_not_defined, "class " + fom_.at(object_class).name + " lacks an attribute of the update");
+  if (values.size() > values_max) throw RtiException(HlaError::rti_internal_error, "the values of an update have " + std::to_string(values.size()) + " bytes; allowed are at most " + std::to_string(values_max));
+  if (fom_.values_fit(object_class, attributes, values)) return;
+  std::string names;
+  attributes.for_each([&](AttributeHandle each) { names += (names.empty() ? "" : ", ") + fom_.at(object_class).attributes[each.value].name; });
+  throw RtiException(HlaError::rti_internal_error, std::to_string(values.size()) + " bytes are not the values of " + fom_.at(object_class).name + "'s " + names);
+}
+
 void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp) {
   const KnownObject* known = find(object);
   if (phase_ != Phase::joined || known == nullptr || !known->is_own) check_update(object, attributes);
   const ObjectClassHandle object_class{known->object_class};
-  assert(fom_.values_fit(object_class, attributes, values));
+  require_values(object_class, attributes, values);
+  require_stamp(stamp);
+  if (known->is_own && !declared_.objects[object_class.value].published.includes(attributes))
+    throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + ": an attribute of the update is not published");
+  if (attributes.is_empty()) return;
   if (declared_.is_special(object_class, attributes) && spare(object, *known, attributes, values, stamp)) return;
   if (is_coded(fom_.at(object_class), attributes)) {
     coded_.clear();
@@ -100,6 +123,8 @@ void Ambassador::send_interaction(InteractionClassHandle interaction_class, Byte
 
 void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters, const Stamp& stamp) {
   require_published(interaction_class);
+  require_parameters(parameters);
+  require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
   say(InteractionMessage{static_cast<std::uint16_t>(interaction_class.value), receiver.value, stamp, parameters});
   ++counters_.interactions_sent;

@@ -107,6 +107,9 @@ class AmbassadorParts : public FomLookup {
   Holding& holding_of(ObjectHandle object, const KnownObject& known);
   void settle_holding(ObjectHandle object, KnownObject& known);
   void check_update(ObjectHandle object, AttributeSet attributes);
+  static void require_parameters(Bytes parameters);
+  static void require_stamp(const Stamp& stamp);
+  void require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const;
   AttributeSet require_owned(ObjectHandle object, AttributeSet attributes);       ///< returns what is offered
   AttributeSet require_acquirable(ObjectHandle object, AttributeSet attributes);  ///< returns what is being acquired
   void ask_ownership(OwnershipRequest request, ObjectHandle object, AttributeSet attributes, Bytes tag);
@@ -206,6 +209,7 @@ class AmbassadorParts : public FomLookup {
   DatagramReceipts receipts_;
   std::vector<std::vector<std::byte>> held_datagrams_;  ///< came before the frames that they follow
   std::vector<std::byte> acknowledgement_, cut_values_, best_effort_values_;
+  std::vector<std::byte> heard_values_;                ///< of the datagram whose callback runs: apart from those above, for a callback may send
   std::vector<Datagram> datagrams_;                    ///< that go out
   std::unique_ptr<BestEffortOutbox> outbox_;           ///< null until there is a way and something to send by it
   ObjectMap<AttributeSet> made_reliable_;              ///< of objects of ours

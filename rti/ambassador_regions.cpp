@@ -166,6 +166,8 @@ void AmbassadorParts::subscribe_with_regions(InteractionClassHandle interaction_
 void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters, std::span<const RegionHandle> regions, const Stamp& stamp) {
   check(interaction_class, regions);
   require_published(interaction_class);
+  require_parameters(parameters);
+  require_stamp(stamp);
   if (spares_interaction(interaction_class)) return;
   write_numbers(regions);
   say(InteractionWithinMessage{static_cast<std::uint16_t>(interaction_class.value), stamp, static_cast<std::uint16_t>(regions.size()), region_records_, parameters});

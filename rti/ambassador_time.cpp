@@ -84,7 +84,7 @@ RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, Attrib
   }
   clock_.check_send(time.value);
   if (!known->is_own && !owned_of(object, *known).includes(attributes)) throw RtiException(HlaError::attribute_not_owned, "object " + std::to_string(object.value) + " is somebody else's");
-  assert(fom_.values_fit(object_class, attributes, values));
+  require_values(object_class, attributes, values);
   std::vector<std::byte> ordered, others;  // each attribute's value goes with those of its order
   for (std::uint32_t i = 0; i < attribute_max; ++i) {
     if (!attributes.contains({i})) continue;
@@ -118,6 +118,7 @@ RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle in
     send_directed_interaction(interaction_class, receiver, parameters, Stamp{time.value, tag});
     return {};
   }
+  require_parameters(parameters);
   content_.clear();
   InteractionMessage message{static_cast<std::uint16_t>(interaction_class.value), receiver.value, {}, parameters};
   write(content_, message);
