@@ -46,7 +46,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, openmpi-bin")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, openmpi-bin")
 # What a project that links the RTI needs; one that links the filters alone needs none of it.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libpugixml-dev, libtomlplusplus-dev, libsodium-dev, pkg-config, cmake")
 include(CPack)
