@@ -196,6 +196,14 @@ TEST_F(Launcher, RunsTheThreadedTestsUnderTheThreadSanitizer) {
   EXPECT_THAT(calls_, ElementsAre("ninja -C ./build-tsan all", runs + " -LE long -R Udp"));
 }
 
+TEST_F(Launcher, RunsThreeAreasWithTheFlagsOfTheBenchmarks) {
+  const std::string runs = "python3 ./tests/run_ctest.py ./build-ndebug";
+  run("test --preset ndebug");
+  EXPECT_THAT(calls_, ElementsAre("cmake --preset ndebug",
+                                  "ninja -C ./build-ndebug test-physics test-im test-rti",
+                                  runs + " -LE long -R ^(physics|im|rti)/"));
+}
+
 TEST_F(Launcher, SaysItsVersionWithoutBuilding) {
   EXPECT_EQ(run("--version"), 0);
   EXPECT_EQ(printed_, "rink 7.8.9 (commit unknown)\n") << "there is no git here";
