@@ -1,9 +1,11 @@
 // The services of the federate's side: each becomes a message at the end of `outgoing`.
 #include "rti/ambassador_say.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "rti/buffering/best_effort_outbox.h"
 #include "rti/wire/message.h"
@@ -41,7 +43,8 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
     require_name(name);
     if (names_.find(name)) throw RtiException(HlaError::object_instance_name_in_use, "'" + std::string(name) + "'");
   }
-  if (objects_registered_ == object_block) return {};
+  if (objects_registered_ == object_block && !further_block_) return {};
+  if (objects_registered_ == object_block) begin_further_block();
   const ObjectHandle object{object_block_ * object_block + objects_registered_++};
   own_.push_back({static_cast<std::uint16_t>(object_class.value), true});
   names_.end_reservation(name);
@@ -50,11 +53,30 @@ ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class
   return object;
 }
 
+bool AmbassadorParts::was_ours(ObjectHandle object) const { return std::ranges::find(former_blocks_, object.value / object_block) != former_blocks_.end(); }
+
+/// Memory follows what is left of the used block, not what it held.
+void AmbassadorParts::begin_further_block() {
+  for (std::uint32_t number = 0; number < own_.size(); ++number)
+    if (own_[number].object_class != KnownObject::unknown) known_[ObjectHandle{object_block_ * object_block + number}] = own_[number];
+  own_.clear();
+  former_blocks_.push_back(object_block_);
+  object_block_ = *std::exchange(further_block_, std::nullopt);
+  objects_registered_ = 0;
+}
+
+bool AmbassadorParts::take_further_block(Reader& reader) {
+  FurtherBlockMessage message;
+  if (!exchange(reader, message) || further_block_ || message.object_block == object_block_) return false;
+  further_block_ = message.object_block;
+  return true;
+}
+
 void Ambassador::delete_object_instance(ObjectHandle object) {
   const KnownObject& known = known_or_throw(object, {});
   if (!owned_of(object, known).contains(privilege_to_delete_object)) throw RtiException(HlaError::delete_privilege_not_held, "object " + std::to_string(object.value));
   forget(object);
-  if (!is_ours(object)) gone_.push_back({object});
+  if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
   say(DeleteObjectMessage{object.value});
 }
 

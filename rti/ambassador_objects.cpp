@@ -55,7 +55,7 @@ bool AmbassadorParts::take_names(Reader& reader) {
   const bool is_set = answer == NameAnswer::set_granted || answer == NameAnswer::set_refused;
   if (!is_set && names.size() != 1) return false;
   if (answer == NameAnswer::registration_refused) {
-    if (const auto object = names_.find(names[0]); object && is_ours(*object)) names_.forget(*object);
+    if (const auto object = names_.find(names[0]); object && (is_ours(*object) || was_ours(*object))) names_.forget(*object);
   }
   const bool is_granted = answer == NameAnswer::granted || answer == NameAnswer::set_granted;
   for (const std::string& name : names) {
@@ -87,7 +87,7 @@ void Ambassador::local_delete_object_instance(ObjectHandle object) {
   if (holding != nullptr && !holding->pending().is_empty()) throw RtiException(HlaError::ownership_acquisition_pending, name_of(object) + ": cancel the acquisition first");
   arrivals_.leave(object);
   forget(object);
-  if (!is_ours(object)) gone_.push_back({object});
+  if (!is_ours(object) && !was_ours(object)) gone_.push_back({object});
   say(LocalDeleteMessage{object.value});
 }
 

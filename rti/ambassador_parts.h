@@ -53,6 +53,10 @@ class AmbassadorParts : public FomLookup {
   void append(Message& message);
   [[noreturn]] void refuse_stranger() const;
   bool is_ours(ObjectHandle object) const { return object.value / object_block == object_block_; }
+  /// In a block of ours that is used up: what is left of it is among `known_`, as what was acquired from others.
+  bool was_ours(ObjectHandle object) const;
+  void begin_further_block();
+  bool take_further_block(Reader& reader);
   KnownObject* find(ObjectHandle object);
   void forget(ObjectHandle object);
   bool is_gone(ObjectHandle object) const;
@@ -178,7 +182,9 @@ class AmbassadorParts : public FomLookup {
   Patience patience_;
   Phase phase_ = Phase::idle;
   FederateHandle federate_;
-  std::uint32_t object_block_ = 0, objects_registered_ = 0;
+  std::uint32_t object_block_ = 0, objects_registered_ = 0;  ///< in that block
+  std::optional<std::uint32_t> further_block_;  ///< for when it is used up
+  std::vector<std::uint32_t> former_blocks_;
   std::vector<KnownObject> own_;    ///< registered here, by number within our block
   ObjectMap<KnownObject> known_;    ///< of others: few of many, so memory follows what is in sight
   std::vector<GoneObject> gone_;    ///< of others, that the RTI may still tell of

@@ -54,7 +54,7 @@ bool AmbassadorParts::take_frame(Bytes frame) {
 /// True of an object that was deleted or forgotten here: what the RTI still says of it, it said before it heard so.
 bool AmbassadorParts::is_gone(ObjectHandle object) const {
   if (is_ours(object)) return object.value % object_block < objects_registered_;
-  return known_.find(object) != nullptr || std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
+  return was_ours(object) || known_.find(object) != nullptr || std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
 }
 
 /// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
@@ -76,6 +76,7 @@ bool AmbassadorParts::take_message(Reader& reader) {
   if (phase_ != Phase::joined) return false;
   switch (name) {
     case MessageKind::heartbeat: return true;
+    case MessageKind::further_block: return take_further_block(reader);
     case MessageKind::synchronization_point_registered:
     case MessageKind::announce_synchronization_point:
     case MessageKind::federation_synchronized: return take_synchronization(reader, name);
@@ -179,7 +180,7 @@ bool AmbassadorParts::take_object(Reader& reader, std::uint8_t kind) {
   DiscoverObjectMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
-  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) || known_.find(object) != nullptr) return false;
+  if (message.object_class >= fom_.object_classes().size() || !object || is_ours(object) || was_ours(object) || known_.find(object) != nullptr) return false;
   std::erase_if(gone_, [object](const GoneObject& each) { return each.object == object; });
   known_[object] = {message.object_class, false};
   ++counters_.objects_discovered;

@@ -175,6 +175,7 @@ void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReaso
   forget_update_requests(slot);
   buffering_->remove_federate(slot);
   baselines_.forget(slot);
+  if (federate.further_block) free_blocks_.push_back(*federate.further_block);
   if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);
   else objects_.close_block(federate.block);  // its handles have been seen
   names_.erase(federate.name);

@@ -43,7 +43,9 @@ class FederationExecution::Parts {
     ConnectionId connection = 0;
     FederateHandle handle;
     std::uint32_t block = 0;  ///< of its objects' handles
-    std::uint32_t objects_registered = 0;
+    std::uint32_t objects_registered = 0;      ///< in that block
+    std::optional<std::uint32_t> further_block{};  ///< that it was given for when this one is used up
+    std::vector<std::uint32_t> former_blocks{};    ///< used up
     std::size_t name_bytes = 0;                ///< of their names
     std::size_t looked_at = 0, said = 0;       ///< since the last flush: objects, for its requests for updates; bytes of interactions
     std::string name, type;
@@ -159,6 +161,9 @@ class FederationExecution::Parts {
   void delete_object(ObjectSlot object);
   /// True, and counted, if an object of that handle was here: who may delete it did so while this was on its way, which is nobody's crime.
   bool is_late(ObjectHandle handle);
+  /// Objects that `federate` has registered and that are there.
+  std::size_t registered_alive(const Federate& federate) const;
+  void extend_block(Federate& federate);
   Outcome take_stamp(std::uint32_t slot, Reader& reader);
   Outcome take_updates(std::uint32_t slot, Reader& reader);
   Outcome take_update(std::uint32_t slot, const UpdatesMessage& message, ObjectHandle handle, Bytes values);
@@ -357,7 +362,10 @@ class FederationExecution::Parts {
 
 template <class Visit>
 void FederationExecution::Parts::for_each_owned(std::uint32_t slot, Visit visit) {
-  if (!has_ownership_moved_) return objects_.for_each_in_block(federates_[slot].block, visit);
+  if (!has_ownership_moved_) {
+    for (const std::uint32_t block : federates_[slot].former_blocks) objects_.for_each_in_block(block, visit);
+    return objects_.for_each_in_block(federates_[slot].block, visit);
+  }
   for (ObjectSlot object = 0; object < objects_.slot_count(); ++object)
     if (objects_[object].is_alive && !ownership_.owned_by(slot, object).is_empty()) visit(object);
 }

@@ -1,6 +1,7 @@
 // What federates say: checked once, here; then it is state.
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "rti/federation_parts.h"
 #include "rti/wire/update_block.h"
@@ -131,17 +132,37 @@ Outcome FederationExecution::Parts::register_object(std::uint32_t slot, Reader& 
   if (!exchange(reader, message)) return Violation::malformed;
   if (message.object_class >= fom_.object_classes().size()) return Violation::unknown_name;
   if (federate.published[message.object_class].is_empty()) return Violation::undeclared;
-  if (federate.objects_registered >= settings_.objects_per_federate_max) return Violation::over_limit;
+  const std::size_t alive = registered_alive(federate);
+  if (alive >= settings_.objects_per_federate_max) return Violation::over_limit;
+  if (federate.objects_registered == object_block) extend_block(federate);
   // Handles come in order, so that a stranger can't make the table grow by naming a great one.
   if (message.object != federate.block * object_block + federate.objects_registered) return Violation::unknown_name;
-  ++federate.objects_registered;
+  if (++federate.objects_registered == object_block / 2 && (!free_blocks_.empty() || next_block_ < object_block_max)) {
+    federate.further_block = take_block();
+    say(federate.control, FurtherBlockMessage{*federate.further_block});
+  }
   federate.name_bytes += message.name.size();
   // Those who have more than their share are refused first, so nobody's hoard keeps others from theirs.
-  const bool is_full = objects_.size() >= settings_.object_max && federate.objects_registered > settings_.object_max / federate_count_;
+  const bool is_full = objects_.size() >= settings_.object_max && alive >= settings_.object_max / federate_count_;
   if (is_full || federate.name_bytes > settings_.name_bytes_per_federate_max) return refuse_object(slot, {message.object}), std::nullopt;
   const bool has_name = message.name.empty() || take_name(slot, message.name);
   interest_.object_registered(objects_.insert({message.object}, slot, message.object_class, has_name ? message.name : std::string_view()));
   return std::nullopt;
+}
+
+std::size_t FederationExecution::Parts::registered_alive(const Federate& federate) const {
+  std::size_t count = objects_.alive_in(federate.block);
+  for (const std::uint32_t block : federate.former_blocks) count += objects_.alive_in(block);
+  return count;
+}
+
+/// Goes on in the block that it was given. Without one it stays where it is, and its next handle is none of its own.
+void FederationExecution::Parts::extend_block(Federate& federate) {
+  if (!federate.further_block) return;
+  objects_.close_block(federate.block);
+  federate.former_blocks.push_back(federate.block);
+  federate.block = *std::exchange(federate.further_block, std::nullopt);
+  federate.objects_registered = 0;
 }
 
 /// Its registrar hears that it is removed; what it says of it meanwhile is late and no crime.

@@ -49,6 +49,8 @@ class ObjectTable {
   bool was_registered(ObjectHandle handle) const;
   /// The handle is used up without an object.
   void pass_over(ObjectHandle handle);
+  /// Living objects whose handles are in `block`.
+  std::uint32_t alive_in(std::uint32_t block) const { return block < blocks_.size() ? blocks_[block].alive : 0; }
   /// No more objects come in `block`: its memory goes with the last of them.
   void close_block(std::uint32_t block);
   /// Calls `visit(slot)` for each living object whose handle is in `block`.

@@ -25,6 +25,7 @@ inline constexpr std::size_t parameters_max = 32 * 1024;     ///< longest parame
 inline constexpr std::size_t values_max = 32 * 1024;         ///< longest values of one update as they travel [bytes]
 inline constexpr std::uint32_t region_max = 1u << 18;        ///< regions of one federate
 /// An object handle is the block that the RTI gave its owner, times `object_block`, plus the owner's own count.
+/// A federate that has used half of its block is given a further one, so that only what it has at once is limited.
 inline constexpr std::uint32_t object_block = 1u << 18;
 inline constexpr std::uint32_t object_block_max = 1u << 14;
 
@@ -62,10 +63,10 @@ enum class MessageKind : std::uint8_t {
   // admission
   challenge = 118, admitted = 119,
   // the connection
-  expelled = 120,
+  expelled = 120, further_block = 121,
   // objects and declarations
   instance_names_answer = 104, class_relevance = 105, object_relevance = 106, transportation = 107,
-  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 121 to 127 the connection
+  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 114 to 117 regions, 122 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -279,6 +280,16 @@ struct JoinedMessage {
 template <class Stream>
 bool exchange(Stream& stream, JoinedMessage& message) {
   return stream.number(message.federate) && stream.range(message.object_block, object_block_max - 1);
+}
+
+/// The block for the federate's objects once the present one is used up.
+struct FurtherBlockMessage {
+  static constexpr MessageKind kind = MessageKind::further_block;
+  std::uint32_t object_block = 0;
+};
+template <class Stream>
+bool exchange(Stream& stream, FurtherBlockMessage& message) {
+  return stream.range(message.object_block, object_block_max - 1);
 }
 
 /// The same in every version of the protocol, so that a refused stranger understands.

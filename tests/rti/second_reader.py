@@ -446,6 +446,7 @@ DOWN = {
     19: Reader.set_stamp,
     64: lambda r: ["joined %d %d" % (r.u32(), r.u32())],
     120: lambda r: ["expelled " + r.text()],
+    121: lambda r: ["further_block %d" % r.u32()],
     65: lambda r: ["refused %d %s" % (r.u8(), r.text())],
     66: lambda r: ["announced %s %s" % (r.text(), r.short_bytes())],
     67: lambda r: ["synchronized %s %s" % (r.text(), r.handles())],

@@ -1,0 +1,96 @@
+// A federate registers as many objects as it likes in its life: when a block of handles is used up, the RTI has given it a further one.
+#include <gtest/gtest.h>
+
+#include "rti/wire/message.h"
+#include "tests/rti/rig.h"
+
+namespace rink::rti::testing {
+namespace {
+
+const AttributeSet both{position, speed};
+
+struct Life {
+  Rig rig{Carrier::in_process};
+  Station &owner = rig.join("owner"), &watcher = rig.join("watcher");
+
+  Life() {
+    owner.ambassador.publish_object_class_attributes(vessel, both);
+    rig.settle();
+  }
+  ObjectHandle place(std::string_view name = {}) { return owner.ambassador.register_object_instance(vessel, name); }
+  /// Registers and deletes `count` objects, a few thousand to a round; true if each had a handle.
+  bool come_and_go(std::uint32_t count) {
+    bool are_all_there = true;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const ObjectHandle object = place();
+      are_all_there = are_all_there && object;
+      if (object) owner.ambassador.delete_object_instance(object);
+      if (i % 4096 == 4095) rig.round();
+    }
+    rig.round();
+    return are_all_there;
+  }
+};
+
+TEST(FurtherBlocks, LetAFederateRegisterMoreThanABlockHolds) {
+  Life life;
+  const ObjectHandle first = life.place("first");
+  EXPECT_TRUE(life.come_and_go(object_block - 1));
+  EXPECT_TRUE(life.come_and_go(1000)) << "in the further block";
+  const ObjectHandle later = life.place("later");
+  ASSERT_TRUE(later);
+  EXPECT_NE(later.value / object_block, first.value / object_block);
+  life.rig.settle();
+  EXPECT_TRUE(life.owner.ambassador.is_joined()) << life.owner.heard.lost;
+  EXPECT_EQ(life.rig.execution().object_count(), 2u);
+
+  // Objects of both blocks live on alike.
+  life.watcher.ambassador.subscribe_object_class_attributes(vessel, both);
+  life.rig.settle();
+  ASSERT_EQ(life.watcher.heard.objects.size(), 2u);
+  for (const ObjectHandle each : {first, later}) life.owner.ambassador.update_attribute_values(each, both, values_of(1.0f, 2.0f, 3.0f), {1.0, 0});
+  life.rig.settle();
+  EXPECT_EQ(life.watcher.heard.objects.at(first.value).updates, 1);
+  EXPECT_EQ(life.watcher.heard.objects.at(later.value).updates, 1);
+  life.owner.ambassador.delete_object_instance(first);
+  life.rig.settle();
+  EXPECT_EQ(life.watcher.heard.objects.count(first.value), 0u);
+  EXPECT_EQ(life.rig.execution().object_count(), 1u);
+  EXPECT_TRUE(life.owner.ambassador.is_joined()) << life.owner.heard.lost;
+}
+
+TEST(FurtherBlocks, GoWithTheFederateAndAllThatIsInThem) {
+  Life life;
+  ASSERT_TRUE(life.place());
+  EXPECT_TRUE(life.come_and_go(object_block - 1));
+  ASSERT_TRUE(life.place());
+  life.rig.settle();
+  ASSERT_EQ(life.rig.execution().object_count(), 2u);
+  life.owner.ambassador.resign();
+  life.rig.settle();
+  EXPECT_EQ(life.rig.execution().object_count(), 0u);
+}
+
+TEST(FurtherBlocks, LeaveTheLimitOfWhatIsThereAtOnce) {
+  FederationSettings settings;
+  settings.objects_per_federate_max = 100;
+  Rig rig(Carrier::in_process, settings);
+  Station& owner = rig.join("owner");
+  owner.ambassador.publish_object_class_attributes(vessel, both);
+  std::vector<ObjectHandle> objects;
+  for (int i = 0; i < 100; ++i) objects.push_back(owner.ambassador.register_object_instance(vessel));
+  for (int i = 0; i < 50; ++i) {
+    owner.ambassador.delete_object_instance(objects[static_cast<std::size_t>(i)]);
+    owner.ambassador.register_object_instance(vessel);
+  }
+  rig.settle();
+  EXPECT_TRUE(owner.ambassador.is_joined()) << "150 in its life, 100 at once";
+  EXPECT_EQ(rig.execution().object_count(), 100u);
+  owner.ambassador.register_object_instance(vessel);
+  rig.settle();
+  EXPECT_FALSE(owner.heard.lost.empty());
+  EXPECT_EQ(rig.execution().counters().drops[static_cast<std::size_t>(Violation::over_limit)], 1u);
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
