@@ -93,7 +93,7 @@ bool AmbassadorParts::take_datagram_updates(const DatagramHead& head, Reader& re
       heard_values_.clear();
       for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
         const Bytes value = coded_value(object_class, attributes, {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
-        heard_values_.insert(cut_values_.end(), value.begin(), value.end());
+        heard_values_.insert(heard_values_.end(), value.begin(), value.end());
       }
       values = heard_values_;
     }
