@@ -79,8 +79,9 @@ class Ambassador : public AmbassadorParts, public AdvisorySwitches<Ambassador> {
   /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of these.
   void resign(ResignAction action);
 
-  /// Object management. The handle is usable at once; empty if the block is used up before the RTI has given a further one, which it does once half is used (rti/wire/message.h). A name that was not reserved is reserved by this; if it is not
-  /// free, `object_instance_name_reservation_failed` tells so and the object goes by its default name. IllegalName, ObjectInstanceNameInUse if that is known here.
+  /// Object management. The handle is usable at once; empty if the block is used up before the RTI has given a further one, which it does once half is used
+  /// (rti/wire/message.h). A name that was not reserved is reserved by this; if it is not free, `object_instance_name_reservation_failed` tells so and the object goes by its
+  /// default name. IllegalName, ObjectInstanceNameInUse if that is known here.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
   /// As if it had never been discovered: it will be when it next comes into scope. FederateOwnsAttributes, OwnershipAcquisitionPending.

@@ -69,7 +69,7 @@ class ServerProcess {
                  {.federation = federation, .policy = options.policy, .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
                   .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options), .key_limit_per_s = options.key_limit_per_s,
                   .always_relevant = game::relevant_kinds_of(scene, options.always)},
-                 federation_of(options, scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
+                 game::federation_of(options, scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
         staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
         gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
         server_(serving_.server()),
@@ -100,7 +100,6 @@ class ServerProcess {
 
  private:
   static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
-  static rti::FederationSettings federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation, im::Worker* worker);
   double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
   void wait(double seconds);
   void exchange_until(double until_s);
@@ -126,15 +125,6 @@ class ServerProcess {
 std::optional<game::Hosting> ServerProcess::hosting_of(const game::ServeOptions& options) {
   if (options.hosted.empty()) return std::nullopt;
   return game::Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s}, .scene_text = game::scene_text(options.scene)};
-}
-
-rti::FederationSettings ServerProcess::federation_of(const game::ServeOptions& options, const game::Scene& scene, const std::string& federation, im::Worker* worker) {
-  rti::FederationSettings settings = game::federation_settings(scene, options.scheme, options.cell_size);
-  settings.match_worker = worker;
-  settings.federation = federation;
-  settings.members = options.members;
-  if (!settings.members.empty()) settings.members.push_back("server");  // our own federate
-  return settings;
 }
 
 void ServerProcess::exchange_until(double until_s) {

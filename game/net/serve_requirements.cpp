@@ -7,6 +7,7 @@
 #include "game/control/replay.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
+#include "game/net/serving.h"
 #include "game/replication/attributes.h"
 
 namespace rink::game {
@@ -58,6 +59,15 @@ rti::FederationFile follow_federation_file(ServeOptions& options) {
     throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but '" + options.federation_file + "' lists " + std::to_string(count) + ", who are waited for");
   if (count > 0) options.clients = count;
   return file;
+}
+
+rti::FederationSettings federation_of(const ServeOptions& options, const Scene& scene, const std::string& federation, im::Worker* worker) {
+  rti::FederationSettings settings = federation_settings(scene, options.scheme, options.cell_size);
+  settings.match_worker = worker;
+  settings.federation = federation;
+  settings.members = options.members;
+  if (!settings.members.empty()) settings.members.push_back("server");  // our own federate
+  return settings;
 }
 
 void require_room(const ServeOptions& options, const Scene& scene) {

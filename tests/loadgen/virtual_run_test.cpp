@@ -220,7 +220,9 @@ TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
   EXPECT_NEAR(*record.truth.churn_per_client_per_s, changes / 6.0 / 3.0, 1e-9);
   std::uint64_t exits = 0;
   for (const BotsEvidence::Bot& bot : read_bots_evidence((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
-    for (const BotsEvidence::ScopeChange& change : bot.changes) exits += !change.is_in && change.instant_s >= experiment_.warm_up_s && change.instant_s < experiment_.warm_up_s + experiment_.duration_s;
+    for (const BotsEvidence::ScopeChange& change : bot.changes)
+      exits += !change.is_in && change.instant_s >= experiment_.warm_up_s &&
+               change.instant_s < experiment_.warm_up_s + experiment_.duration_s;
   EXPECT_EQ(server["scope_exits"], exits);
 }
 
@@ -235,7 +237,8 @@ TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
   std::set<std::uint32_t> sizes;
   for (const BotsEvidence::Belief& belief : bots.beliefs) sizes.insert(belief.bytes);
   EXPECT_LE(*sizes.rbegin(), 16u) << "two f32, and a bat's count of keys";
-  EXPECT_EQ(std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes == 8u; }), std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
+  EXPECT_EQ(std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes == 8u; }),
+            std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
   EXPECT_GT(*record.truth.wasted_bytes_fraction, 0.5) << "each sees a twentieth of the field";
 }
 

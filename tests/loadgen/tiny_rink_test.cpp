@@ -1,0 +1,341 @@
+// A rink of one bat and three pucks in which every figure of truth is known by arithmetic.
+#include "loadgen/truth/truth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "areas.h"
+#include "game/model/random_stream.h"
+#include "game/net/evidence.h"
+#include "game/net/evidence_lines.h"
+#include "game/net/peer/peer_evidence.h"
+#include "loadgen/truth/classification.h"
+#include "loadgen/truth/replay.h"
+#include "loadgen/truth/scope_history.h"
+#include "loadgen/truth/stays.h"
+#include "tests/temporary_folder.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// One bat at rest in the middle of a field without drag; three pucks: one at rest beside it, one that flies by, one far away.
+class TinyRink : public testing::Test {
+ protected:
+  static constexpr double view_half_side = 1.0;
+  static constexpr std::uint32_t bat = 0, still = 1, flying = 2, far = 3;  // bodies in the order of their making
+
+  void SetUp() override {
+    scene_file_ = (folder_ / "tiny.toml").string();
+    std::ofstream(scene_file_) << R"(
+[field]
+length = 20.0
+width = 20.0
+material = "ice"
+[materials]
+names = ["ice"]
+restitution = 1.0
+[drag]
+pucks = 0.0
+bats = 0.0
+[[bat]]
+position = [10.0, 10.0]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[puck]]
+position = [10.5, 10.5]
+radius = 0.1
+material = "ice"
+[[puck]]
+position = [8.0, 9.5]
+velocity = [1.0, 0.0]
+radius = 0.1
+material = "ice"
+[[puck]]
+position = [2.0, 2.0]
+radius = 0.1
+material = "ice"
+)";
+    server_.choice.scene = scene_file_;
+    server_.clients = 1;
+    server_.rate_hz = 10.0;
+    server_.until_s = server_.end_s = 4.0;
+    for (std::uint32_t body = 0; body < 4; ++body) server_.objects.push_back({100 + body, body});
+    game::Game game(game::chosen_scene(server_.choice));
+    game.advance(server_.end_s);
+    server_.state_hash = game.hash();
+    bots_.clients = 1;
+    bots_.until_s = 4.0;
+    bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}, {-1.0, 100 + still, true}}});
+  }
+
+  void decide(double instant_s, const std::vector<std::uint32_t>& bodies) {
+    const std::size_t first = server_.in_scope.size();
+    for (const std::uint32_t body : bodies) server_.in_scope.push_back(100 + body);
+    server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
+  }
+  TruthFigures judged() const { return truth_of(server_, bots_, {RelevanceArea::Shape::square, view_half_side}); }
+
+  test::TemporaryFolder folder_{"truth"};
+  std::string scene_file_;
+  game::ServerEvidence server_;
+  BotsEvidence bots_;
+};
+
+// The flying puck's box touches the square from x = 8.9 on, at 0.9 s, until x = 11.1, at 3.1 s.
+TEST_F(TinyRink, FilterDecisionsAreHeldAgainstWhereThingsWereWhenTheyWereInForce) {
+  decide(0.5, {bat, still});                // exact
+  decide(1.0, {bat, still});                // missed the flying one
+  decide(2.0, {bat, still, flying, far});   // one too many
+  const TruthFigures truth = judged();
+  EXPECT_DOUBLE_EQ(*truth.filter_recall, 4.0 / 5.0);
+  EXPECT_DOUBLE_EQ(*truth.filter_precision, 4.0 / 5.0);
+  EXPECT_EQ(truth.relevance, "square of 2 m around the bat, touched by the entity's box");
+}
+
+TEST_F(TinyRink, LateEntriesAndChurnFollowFromTheTimesOfArrival) {
+  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
+  bots_.bots[0].changes.push_back({3.5, 100 + flying, false});
+  const TruthFigures truth = judged();
+  EXPECT_NEAR(*truth.late_entry_ms.max, 350.0, 1e-6);
+  EXPECT_DOUBLE_EQ(*truth.churn_per_client_per_s, 2.0 / 4.0);
+  EXPECT_DOUBLE_EQ(*truth.flapping_fraction, 0.0);
+}
+
+TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
+  const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched, Vector2 displayed) {
+    bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});
+  };
+  bots_.bots[0].changes.push_back({1.0, 100 + flying, true});
+  bots_.bots[0].changes.push_back({1.0, 100 + far, true});
+  believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});     // the own bat counts nowhere
+  believe(still, 10, {10.5, 10.5}, {10.5, 10.5});
+  believe(flying, 20, {10.0, 9.5}, {10.0, 9.5});  // right at 2.0 s, 50 mm behind at 2.05 s
+  believe(far, 30, {7.0, 7.0}, {7.0, 7.0});       // wrong, but of no interest
+  bots_.samples.push_back({.bot = 0, .displayed_s = 2.05, .matched_s = 2.0, .window_s = 0.05, .first = 0, .last = 4});
+  const TruthFigures truth = judged();
+  EXPECT_NEAR(*truth.position_error_mm.max, 0.0, 1e-9);
+  EXPECT_NEAR(*truth.displayed_error_mm.max, 50.0, 1e-9);
+  EXPECT_NEAR(*truth.displayed_error_mm.rms, 50.0 / std::sqrt(2.0), 1e-9);
+  EXPECT_DOUBLE_EQ(*truth.wasted_bytes_fraction, 30.0 / 60.0);
+  EXPECT_DOUBLE_EQ(*truth.delivered_precision, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(*truth.delivered_recall, 1.0);
+}
+
+TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
+  // Right and up at once take the bat along the diagonal into the puck that stands there.
+  server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
+  game::Game game(game::chosen_scene(server_.choice));
+  game.record_events(true);
+  for (const game::InputEvent& key : server_.keys) game.submit(key);
+  std::uint64_t contacts = 0, with_still = 0;
+  game.advance(server_.until_s - 1e-9);
+  for (const physics::Event& impact : game.events()) {
+    if (!physics::is_impact(impact.kind) || !impact.other || (impact.body.index != bat && impact.other->index != bat)) continue;
+    ++contacts;
+    with_still += impact.body.index == still || impact.other->index == still ? 1u : 0u;
+  }
+  game.advance(server_.end_s);
+  server_.state_hash = game.hash();
+  ASSERT_GT(with_still, 0u);
+  EXPECT_EQ(judged().interactions, contacts);
+  EXPECT_EQ(judged().missed_interactions, contacts - with_still);
+  bots_.bots[0].changes.pop_back();  // never heard of the still puck
+  EXPECT_EQ(judged().missed_interactions, contacts);
+}
+
+/// The bat is pushed into the puck again and again; only contacts from the beginning of the measured span up to its end count, that itself excluded.
+TEST_F(TinyRink, ContactsOfTheWarmUpAndAfterTheEndAreNotCounted) {
+  server_.keys = {{.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.0, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::up}};
+  game::Game game(game::chosen_scene(server_.choice));
+  game.record_events(true);
+  for (const game::InputEvent& key : server_.keys) game.submit(key);
+  std::vector<double> instants;
+  for (int i = 1; i <= 4000; ++i) {
+    game.advance(1e-3 * i);
+    for (const physics::Event& impact : game.events())
+      if (physics::is_impact(impact.kind) && impact.other &&
+          (impact.body.index == bat || impact.other->index == bat) &&
+          (instants.empty() || impact.time > instants.back()))
+        instants.push_back(impact.time);
+  }
+  server_.state_hash = game.hash();
+  ASSERT_GE(instants.size(), 3u);
+  server_.from_s = instants[1], server_.until_s = instants.back();
+  EXPECT_EQ(judged().interactions, instants.size() - 2) << "neither the first nor the one at the end";
+  server_.from_s = std::nextafter(instants[1], 4.0);
+  EXPECT_EQ(judged().interactions, instants.size() - 3);
+  bots_.bots[0].changes.pop_back();  // never heard of the puck
+  EXPECT_EQ(judged().missed_interactions, judged().interactions);
+}
+
+TEST_F(TinyRink, ChurnIsThatOfTheSpanPerWatchedPlayerAndSecond) {
+  for (const double instant_s : {0.5, 1.5, 2.5, 3.5}) bots_.bots[0].changes.push_back({instant_s, 100 + flying, std::fmod(instant_s, 2.0) < 1.0});
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 4.0 / 4.0);
+  server_.from_s = 1.0, server_.until_s = 3.5;
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5) << "at 1.5 and 2.5 s; what happens at the end is after it";
+  bots_.bots.push_back({100 + far, {}});  // another player, at rest where nothing comes by
+  EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5 / 2.0);
+}
+
+/// A puck slides into the left goal, lies there for the delay, and is put back between two ticks, far from where it was.
+TEST_F(TinyRink, APuckThatScoredCountsWhereItLeftPlayUntilTheFirstTickAfterItsFaceOff) {
+  std::ofstream(scene_file_) << R"(
+[field]
+length = 4.0
+width = 2.0
+goal_width = 1.0
+material = "ice"
+[materials]
+names = ["ice"]
+restitution = 1.0
+[drag]
+pucks = 0.0
+bats = 0.0
+[match]
+goals_to_win = 5
+face_off_delay = 1.03
+face_off_distance = 0.25
+[[bat]]
+position = [3.5, 1.0]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[bat]]
+position = [3.5, 0.3]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[puck]]
+position = [1.0, 1.0]
+velocity = [-1.0, 0.0]
+radius = 0.1
+material = "ice"
+)";
+  constexpr std::uint32_t puck = 2;
+  game::Game game(game::chosen_scene(server_.choice));
+  std::optional<double> scored_s, back_s;
+  Vector2 left_play;
+  for (int ms = 0; ms <= 4000 && !back_s; ++ms) {
+    game.advance(1e-3 * ms);
+    const bool is_away = !game.world().is_in_play({puck});
+    if (is_away && !scored_s) scored_s = 1e-3 * ms, left_play = game.position({puck});
+    if (!is_away && scored_s) back_s = 1e-3 * ms;
+  }
+  ASSERT_TRUE(scored_s && back_s);
+  ASSERT_NEAR(*back_s - *scored_s, 1.03, 2e-3);
+  const Vector2 face_off = game.position({puck});
+  ASSERT_GT((face_off - left_play).norm(), 0.9);
+  const double tick_s = 1.0 / server_.rate_hz, first_tick_s = std::ceil(*back_s / tick_s) * tick_s;
+  ASSERT_GT(first_tick_s - *back_s, 0.01) << "it comes back between two ticks";
+  Replay replay(server_, {RelevanceArea::Shape::square, view_half_side});
+  const auto centre_at = [&](double instant_s) {
+    replay.advance(instant_s);
+    replay.look_around();
+    return replay.centre(puck);
+  };
+  EXPECT_NEAR((centre_at(*scored_s + 0.01) - left_play).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((centre_at(*back_s + 1e-3) - left_play).norm(), 0.0, 1e-9) << "put back, and not announced";
+  EXPECT_NEAR((centre_at(first_tick_s - 1e-3) - left_play).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((centre_at(first_tick_s) - face_off).norm(), 0.0, 0.1) << "the first tick that can tell of it";
+}
+
+TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {
+  server_.state_hash ^= 1;
+  EXPECT_THROW(judged(), DifferentGame);
+}
+
+TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
+  decide(0.5, {bat, still, far});
+  server_.keys = {{.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down}};
+  server_.ticks = {{0.1, 1e-6, 2e-6, 3.5e-6}};
+  server_.scheme = "grid";
+  const std::string file = (folder_ / "server.jsonl").string();
+  write_evidence(file, server_);
+  const game::ServerEvidence read = game::read_server_evidence(file);
+  EXPECT_EQ(read.choice, server_.choice);
+  EXPECT_EQ(read.keys, server_.keys);
+  EXPECT_EQ(read.in_scope, server_.in_scope);
+  EXPECT_EQ(read.scheme, "grid");
+  EXPECT_EQ(read.state_hash, server_.state_hash);
+  EXPECT_NEAR(read.ticks.at(0).send_s, 3.5e-6, 1e-15);
+
+  bots_.beliefs.push_back({.object = 7, .bytes = 8, .is_in_scope = true, .matched = {1.25, -2.5}, .displayed = {1.5, -2.5}});
+  bots_.samples.push_back({.bot = 0, .displayed_s = 0.7, .matched_s = 0.6, .window_s = 0.05, .first = 0, .last = 1});
+  const std::string bots_file = (folder_ / "bots.jsonl").string();
+  write_evidence(bots_file, bots_);
+  const BotsEvidence bots = read_bots_evidence(bots_file);
+  ASSERT_EQ(bots.beliefs.size(), 1u);
+  EXPECT_EQ(bots.beliefs[0].displayed, Vector2(1.5, -2.5));
+  EXPECT_EQ(bots.bots.at(0).changes.size(), 2u);
+  EXPECT_EQ(bots.samples.at(0).matched_s, 0.6);
+}
+
+TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
+  const auto words_of = [&](const char* key, const auto& read) {
+    const std::string file = (folder_ / "other.jsonl").string();
+    game::EvidenceWriter writer(file);
+    writer.line({{key, 2}});
+    writer.finish();
+    try {
+      read(file);
+    } catch (const game::EvidenceError& error) {
+      return std::string(error.what());
+    }
+    return std::string("(accepted)");
+  };
+  EXPECT_THAT(words_of("rink-server-evidence", game::read_server_evidence),
+              HasSubstr("other.jsonl:1: expected a server's evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence), HasSubstr("expected a peer's evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence), HasSubstr("expected the bots' evidence of version 1, found version 2"));
+  EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_evidence),
+              HasSubstr("expected a server's evidence of version 1, found something else"));
+}
+
+TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
+  const std::string server_file = (folder_ / "server.jsonl").string(), bots_file = (folder_ / "bots.jsonl").string();
+  const auto judged_with = [&](auto&& spoil) {
+    write_evidence(server_file, server_);
+    write_evidence(bots_file, bots_);
+    std::ostringstream text;
+    text << std::ifstream(server_file).rdbuf();
+    const std::string spoilt = spoil(text.str());
+    std::ofstream(server_file) << spoilt;
+    RunRecord record;
+    record.valid = true;
+    record.down_bytes_per_client_per_s = 5.0;
+    record.cell.parameters.view_fraction = 0.01;
+    const Experiment experiment;
+    add_truth(record, experiment, server_file, bots_file);
+    EXPECT_EQ(record.down_bytes_per_client_per_s, 5.0);
+    return record;
+  };
+  const RunRecord sound = judged_with([](const std::string& text) { return text; });
+  EXPECT_TRUE(sound.valid && sound.truth.trouble.empty()) << sound.truth.trouble;
+  EXPECT_TRUE(sound.truth.interactions);
+  const auto trouble = [&](auto&& spoil) {
+    const RunRecord record = judged_with(spoil);
+    EXPECT_TRUE(record.valid);
+    EXPECT_FALSE(record.truth.interactions);
+    return record.truth.trouble;
+  };
+  EXPECT_THAT(trouble([](std::string text) { return text.substr(0, text.size() / 2); }), HasSubstr("server.jsonl: truncated or altered"));
+  EXPECT_THAT(trouble([](std::string text) { return text.replace(text.find("\"rate_hz\":10"), 12, "\"rate_hz\":11"); }), HasSubstr("altered"));
+  EXPECT_THAT(trouble([](std::string) { return std::string(); }), HasSubstr("truncated"));
+  EXPECT_THAT(trouble([&](std::string text) {
+                std::filesystem::remove(bots_file);
+                return text;
+              }), HasSubstr("bots.jsonl: cannot be read"));
+  server_.state_hash ^= 1;
+  const RunRecord other = judged_with([](std::string text) { return text; });
+  EXPECT_FALSE(other.valid);
+  EXPECT_THAT(other.why_invalid, HasSubstr("does not end in the server's state"));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
