@@ -55,16 +55,17 @@ double process_seconds() {
 
 /// What has arrived at all subscribers of a thread.
 struct Arrivals {
-  std::atomic<std::uint64_t> delivered{0};
+  std::atomic<std::uint64_t> delivered{0}, discovered{0};
   std::atomic<bool> is_spoilt{false}, is_over{false};
 };
 
 /// Hears of all objects; each must be told each round once, in order.
 struct Subscriber : FederateAmbassador {
   Ambassador ambassador{model(), *this};
-  std::uint64_t delivered = 0;
+  std::uint64_t delivered = 0, discovered = 0;
   bool is_spoilt = false;
   std::array<std::uint64_t, object_count> next_round{};
+  void discover_object_instance(ObjectHandle, ObjectClassHandle, std::string_view) override { ++discovered; }
   void reflect_attribute_values(ObjectHandle, AttributeSet, Bytes values, const Stamp&) override {
     State state;
     std::memcpy(&state, values.data(), sizeof state);
@@ -88,12 +89,12 @@ void run_subscribers(std::uint16_t port, int count, Arrivals& arrivals) {
   while (!arrivals.is_over) {
     links.flush(0.0);
     tcp.poll(1ms, links);
-    std::uint64_t sum = 0;
+    std::uint64_t sum = 0, discovered = 0;
     for (const Subscriber& each : subscribers) {
-      sum += each.delivered;
+      sum += each.delivered, discovered += each.discovered;
       if (each.is_spoilt) arrivals.is_spoilt = true;
     }
-    arrivals.delivered = sum;
+    arrivals.delivered = sum, arrivals.discovered = discovered;
   }
 }
 
@@ -158,7 +159,11 @@ void rink_updates(benchmark::State& state) {
   std::vector<ObjectHandle> objects;
   for (std::uint64_t i = 0; i < object_count; ++i) objects.push_back(publisher.ambassador.register_object_instance(entity));
   links.flush(0.0);
-  std::this_thread::sleep_for(50ms);  // discovered by all
+  // Whoever had not discovered an object yet would get its first rounds as one state.
+  while (arrivals.discovered < object_count * static_cast<std::uint64_t>(subscribers)) {
+    links.flush(0.0);
+    tcp.poll(1ms, links);
+  }
   measure_updates(state, arrivals, [&](std::uint64_t round) {
     for (std::uint64_t i = 0; i < object_count; ++i) {
       const State content = State::of(i, round);
