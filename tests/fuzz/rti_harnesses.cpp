@@ -151,7 +151,8 @@ void federation_files(Bytes bytes) {
   try {
     const FederationFile file = parse_federation_file(text_of(bytes), "fuzzed.toml");
     require(!file.nodes.empty(), "a federation has a node");
-    for (const Node& node : file.nodes) require(node.port > 0, "a node has a port");
+    require(file.nodes.front().port > 0 && !file.nodes.front().address.empty(), "the node that is asked has an address and a port");
+    for (const Node& node : file.nodes) require((node.port > 0) == !node.address.empty(), "a node that asks has both or neither");
   } catch (const FileError& error) {
     require(std::strncmp(error.what(), "fuzzed.toml", 11) == 0, "a complaint names the file");
   }
