@@ -10,6 +10,7 @@ Assembly::Assembly(const physics::World& whole, const Division& division, double
   assert(whole.now() == 0.0 && window > 0.0);
   for (PeerNumber number = 0; number < division.peer_count(); ++number) {
     Peer& peer = peers_.emplace_back(whole.spec(), division, number, whole.body_count(), halo);
+    peer.validate_by(Validator(whole));
     for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer.consider(body, physics::Portion::state_in(whole, body));
   }
 }

@@ -61,6 +61,24 @@ void Peer::consider(std::uint32_t body, const BodyState& state) {
   ghosts_.push_back(body);
 }
 
+template <class Message>
+bool Peer::is_sound(PeerNumber from, const Message& message) {
+  const std::string fault = validator_ ? validator_->fault_of(message) : std::string();
+  return fault.empty() || accuse(from, fault);
+}
+
+void Peer::hear(PeerNumber from, Claims claims) {
+  if (is_sound(from, claims)) claims_[from] = std::move(claims);
+}
+
+void Peer::hear(PeerNumber from, const Verdict& verdict) {
+  if (is_sound(from, verdict)) verdicts_[from] = verdict;
+}
+
+void Peer::hear(PeerNumber from, Arrivals arrivals) {
+  if (is_sound(from, arrivals)) arrivals_[from] = std::move(arrivals);
+}
+
 void Peer::begin(double until) {
   if (!entered_holds_.empty()) set_holds(std::exchange(entered_holds_, {}));
   portion_.begin_window();

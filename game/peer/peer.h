@@ -10,6 +10,7 @@
 #include "game/peer/division.h"
 #include "game/peer/messages.h"
 #include "game/peer/mirror.h"
+#include "game/peer/validation.h"
 #include "game/physics/portion.h"
 
 namespace rink::peer {
@@ -91,9 +92,11 @@ class Peer {
 
   void play();
   Claims claims_for(PeerNumber peer);
-  void hear(PeerNumber from, Claims claims) { claims_[from] = std::move(claims); }
+  /// Whatever is heard must keep to the scene from now on, as `validator` knows it. What does not is not taken, and whoever sent it is accused.
+  void validate_by(Validator validator) { validator_ = std::move(validator); }
+  void hear(PeerNumber from, Claims claims);
   const Verdict& judge();
-  void hear(PeerNumber from, const Verdict& verdict) { verdicts_[from] = verdict; }
+  void hear(PeerNumber from, const Verdict& verdict);
   Outcome conclude();
   const Verdict& verdict() const { return verdicts_[number_]; }
   const Verdict& verdict_of(PeerNumber peer) const { return verdicts_[peer]; }
@@ -104,7 +107,7 @@ class Peer {
   Arrivals arrivals_for_repeat(PeerNumber peer);
   /// `until` [s]: the end of the next window.
   Arrivals arrivals_for(PeerNumber peer, double until);
-  void hear(PeerNumber from, Arrivals arrivals) { arrivals_[from] = std::move(arrivals); }
+  void hear(PeerNumber from, Arrivals arrivals);
   void replay();
   void commit(double until);
   /// After it, and before anything is played: the window that is prepared ends so soon instead [s].
@@ -211,7 +214,11 @@ class Peer {
   void make_room(PeerNumber peer_count);
   void note_changed();
 
+  template <class Message>
+  bool is_sound(PeerNumber from, const Message& message);
+
   physics::Portion portion_;
+  std::optional<Validator> validator_;
   Division division_;
   PeerNumber number_;
   double halo_max_;

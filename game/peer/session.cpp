@@ -17,7 +17,7 @@ Whole Whole::of(const physics::World& world) {
 }
 
 Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken)
-    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
+    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
       division_(cuts.division(settings_.peer_count)) {
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
   now_.slots = now_.next_number = settings_.peer_count;
@@ -32,6 +32,7 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   if (settings_.is_mirrored) keep_first_parts(whole);
   if (when_taken) when_taken();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
+  peer_->validate_by(validator_);
   for (const auto& [body, state] : near) peer_->consider(body, state);
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
@@ -208,8 +209,8 @@ void Session::mirror(const State& next, PartChange change) {
   for (const PeerNumber from : next.members) {
     if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
     auto kept = heard<PartChange>(from);
-    const bool is_good = kept.step == next.step && std::all_of(kept.bodies.begin(), kept.bodies.end(), [&](const Arrivals::Body& body) { return body.number < whole_.body_count; });
-    if (!is_good || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
+    if (const std::string fault = validator_.fault_of(kept); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+    if (kept.step != next.step || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
   }
 }
 

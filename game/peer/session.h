@@ -167,6 +167,7 @@ class Session {
   SessionSettings settings_;
   Mail& mail_;
   Whole whole_;
+  Validator validator_;
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;

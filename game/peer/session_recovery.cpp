@@ -180,6 +180,7 @@ void Session::rebuild() {
 void Session::enter(const State& next, std::span<const Arrivals> shares) {
   if (peer_) counters_.peer += peer_->counters();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
+  peer_->validate_by(validator_);
   for (PeerNumber peer = 0; peer < next.slots; ++peer) peer_->set_present(peer, next.has(peer));
   for (const Player& player : next.players)
     if (next.has(player.peer))

@@ -63,6 +63,14 @@ bool Portion::was_gone(std::uint32_t body) const {
   return (flags & Engine::gone) != 0;
 }
 
+bool Portion::is_possible(const BodyState& state, std::uint32_t body_count) {
+  constexpr std::uint8_t known = Engine::gone | Engine::held | Engine::frozen;
+  const bool is_jammed = (state.flags & Engine::frozen) != 0;
+  return (state.flags & ~known) == 0 && state.mouth <= Engine::right_mouth && (!is_jammed || state.jam < body_count);
+}
+
+bool Portion::is_held_along(const BodyState& state, int axis) { return (state.flags & (axis == 0 ? Engine::held_x : Engine::held_y)) != 0; }
+
 /// All of the body's state, but not where it is listed.
 void Portion::write(std::uint32_t body, const BodyState& s) {
   Engine& e = engine();

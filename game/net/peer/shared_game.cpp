@@ -166,6 +166,7 @@ std::unique_ptr<peer::Peer> SharedGame::peer(const peer::Division& division, pee
   if (has_goals(scene_)) throw SceneError("scene '" + scene_.name + "' has goals (field.goal_width), which only peers of a session count: expected a scene without, such as arena");
   const physics::World& whole = start_.world();
   auto peer = std::make_unique<peer::Peer>(whole.spec(), division, number, whole.body_count(), first_halo(window));
+  peer->validate_by(peer::Validator(whole));
   for (std::uint32_t body = 0; body < whole.body_count(); ++body) peer->consider(body, physics::Portion::state_in(whole, body));
   for (const peer::Key& key : thrusts()) peer->press_first(key);
   return peer;

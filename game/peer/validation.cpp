@@ -1,0 +1,129 @@
+// Bounds that every honest message keeps, each with words for whoever did not keep it.
+#include "game/peer/validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rink::peer {
+
+namespace {
+
+constexpr double speed_max = 299'792'458.0;  ///< m/s: nothing in a rink outruns light
+
+bool is_number(const Vector2& v) { return v.allFinite(); }
+
+std::string named(const char* what, std::uint32_t number, const char* fault) { return std::string(what) + " " + std::to_string(number) + " " + fault; }
+
+bool names(const Hold& hold, std::uint32_t body, int axis) { return hold.axis == axis && (hold.low == body || hold.high == body); }
+
+/// Of a body that is said to be in rest contact, whether the message has the contact.
+bool has_its_holds(const Arrivals::Body& body, const std::vector<Hold>& holds) {
+  for (const int axis : {0, 1})
+    if (physics::Portion::is_held_along(body.state, axis) && std::none_of(holds.begin(), holds.end(), [&](const Hold& hold) { return names(hold, body.number, axis); })) return false;
+  return true;
+}
+
+}  // namespace
+
+BodyConstants BodyConstants::of(const BodyState& state) {
+  return {state.flight.radius, state.mass, state.inverse_mass, state.half_extent, state.kind, state.material, state.half};
+}
+
+Validator::Validator(const physics::World& world)
+    : reach_(2.0 * (world.spec().field.length + world.spec().field.width)), material_count_(world.spec().restitution.material_count()) {
+  for (std::uint32_t body = 0; body < world.body_count(); ++body) {
+    const BodyConstants own = BodyConstants::of(physics::Portion::state_in(world, body));
+    const auto known = std::find(constants_.begin(), constants_.end(), own);
+    constants_of_.push_back(static_cast<std::uint32_t>(known - constants_.begin()));
+    if (known == constants_.end()) constants_.push_back(own);
+  }
+}
+
+bool Validator::is_place(const Vector2& place) const { return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_; }
+
+std::string Validator::fault_of(const Arrivals::Body& body) const {
+  const BodyState& s = body.state;
+  if (!is_body(body.number)) return named("hands over body", body.number, "which does not exist");
+  if (BodyConstants::of(s) != constants_[constants_of_[body.number]]) return named("hands over body", body.number, "with a radius, mass, material or kind that the scene does not give it");
+  const bool is_somewhere = is_place({s.flight.x, s.flight.y}) && std::hypot(s.flight.vx, s.flight.vy) <= speed_max && std::isfinite(s.flight.time);
+  if (!is_somewhere) return named("hands over body", body.number, "at no place, speed or time");
+  const bool is_driven = is_number(s.thrust) && is_number(s.acceleration) && is_number(s.drag) && s.drag.minCoeff() >= 0.0 && is_number(s.slowing) && std::isfinite(s.spin);
+  if (!is_driven) return named("hands over body", body.number, "with an acceleration, drag or spin that is no number");
+  const bool is_counted = std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) && std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
+  if (!is_counted) return named("hands over body", body.number, "with times that are no numbers");
+  if (!physics::Portion::is_possible(s, static_cast<std::uint32_t>(constants_of_.size()))) return named("hands over body", body.number, "in a state that does not exist");
+  return {};
+}
+
+std::string Validator::fault_of(const Flown& flown) const {
+  if (!is_body(flown.number)) return named("hands over body", flown.number, "which does not exist");
+  if (is_place(flown.position) && flown.velocity.norm() <= speed_max && std::isfinite(flown.time)) return {};
+  return named("hands over body", flown.number, "at no place, speed or time");
+}
+
+std::string Validator::fault_of(const Hold& hold) const {
+  const auto is_partner = [&](physics::Partner p) { return is_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway); };
+  const auto is_moving = [&](physics::Partner p) { return is_body(p) && !is_of_kind(p, physics::BodyKind::post); };
+  if (!is_partner(hold.low) || !is_partner(hold.high) || hold.low == hold.high) return "hands over a rest contact of body " + std::to_string(hold.low) + " with " + std::to_string(hold.high) + ", which cannot be";
+  if (!is_moving(hold.low) && !is_moving(hold.high)) return "hands over a rest contact of two that cannot move";
+  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) && std::isfinite(hold.force) && std::isfinite(hold.age.time);
+  return has_times ? std::string() : "hands over a rest contact whose times or force are no numbers";
+}
+
+std::string Validator::fault_of(const Key& key) const {
+  if (is_of_kind(key.bat, physics::BodyKind::bat) && is_number(key.thrust) && std::isfinite(key.time)) return {};
+  return named("hands over a key of bat", key.bat, "which is none, or whose time or thrust is no number");
+}
+
+std::string Validator::fault_of(const Glimpse& glimpse) const {
+  bool is_sound = is_of_kind(glimpse.bat, physics::BodyKind::bat) && std::isfinite(glimpse.time) && is_place(glimpse.position) && is_number(glimpse.velocity);
+  for (const Glimpse::Puck& puck : glimpse.pucks)
+    is_sound = is_sound && is_body(puck.number) && is_place(puck.position) && is_number(puck.velocity) && std::isfinite(puck.radius) && puck.radius >= 0.0;
+  return is_sound ? std::string() : named("shows bat", glimpse.bat, "as it cannot be");
+}
+
+template <class Item>
+std::string Validator::first_fault(const std::vector<Item>& list) const {
+  for (const Item& item : list)
+    if (std::string fault = fault_of(item); !fault.empty()) return fault;
+  return {};
+}
+
+std::string Validator::fault_of(const Arrivals& message) const {
+  for (const std::string& fault : {first_fault(message.bodies), first_fault(message.flown), first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
+    if (!fault.empty()) return fault;
+  for (const Arrivals::Body& body : message.bodies)
+    if (!has_its_holds(body, message.holds)) return named("hands over body", body.number, "in a rest contact that it does not hand over");
+  return {};
+}
+
+std::string Validator::fault_of(const Claims& message) const {
+  for (const Claims::Body& body : message.bodies)
+    if (!is_body(body.number)) return named("claims body", body.number, "which does not exist");
+  for (const ClaimedFlight& flight : message.flights)
+    if (!std::isfinite(flight.begin) || !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y)) return "claims a flight through no place or at no time";
+  for (const Press& press : message.presses)
+    if (!is_of_kind(press.bat, physics::BodyKind::bat)) return named("presses a key of bat", press.bat, "which is none");
+  return {};
+}
+
+std::string Validator::fault_of(const Verdict& message) const {
+  for (const Goal& goal : message.goals)
+    if (!is_of_kind(goal.puck, physics::BodyKind::puck)) return named("tells of a goal of puck", goal.puck, "which is none");
+  return {};
+}
+
+std::string Validator::fault_of(const PartChange& message) const {
+  for (const std::string& fault : {first_fault(message.bodies), first_fault(message.flown), first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
+    if (!fault.empty()) return fault;
+  for (const std::uint32_t body : message.gone)
+    if (!is_body(body)) return named("gives away body", body, "which does not exist");
+  return std::isfinite(message.time) ? std::string() : "tells of its part at no time";
+}
+
+std::string Validator::fault_of(const FaceOffWord& message) const {
+  if (!is_of_kind(message.puck, physics::BodyKind::puck)) return named("tells of puck", message.puck, "which is none");
+  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once") : first_fault(message.body);
+}
+
+}  // namespace rink::peer

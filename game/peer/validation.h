@@ -1,0 +1,57 @@
+// What a message of another peer must keep to, whoever sent it: checked once, where it is received.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "game/peer/messages.h"
+#include "game/peer/mirror.h"
+#include "game/peer/scoring.h"
+
+namespace rink::peer {
+
+/// What nothing that happens in a game changes of a body.
+struct BodyConstants {
+  double radius = 0.0, mass = 1.0, inverse_mass = 1.0;  ///< m, kg, 1/kg
+  Vector2 half_extent{0.0, 0.0};                        ///< m
+  physics::BodyKind kind = physics::BodyKind::puck;
+  physics::MaterialId material = 0;
+  physics::Half half = physics::Half::both;
+
+  static BodyConstants of(const BodyState& state);
+  friend bool operator==(const BodyConstants&, const BodyConstants&) = default;
+};
+
+/// Knows the scene, so that it can tell what no honest peer says: numbers of bodies that do not exist, numbers that are none, bodies with another radius, mass, material or
+/// kind than the scene gives them. What could be true, and is not, is not seen here: claims and digests tell of that (docs/peer-to-peer.md).
+class Validator {
+ public:
+  explicit Validator(const physics::World& world);
+
+  /// What is wrong with the message, as in "hands over body 7 at no place"; empty if nothing is.
+  std::string fault_of(const Arrivals& message) const;
+  std::string fault_of(const Claims& message) const;
+  std::string fault_of(const Verdict& message) const;
+  std::string fault_of(const PartChange& message) const;
+  std::string fault_of(const FaceOffWord& message) const;
+
+ private:
+  std::string fault_of(const Arrivals::Body& body) const;
+  std::string fault_of(const Flown& flown) const;
+  std::string fault_of(const Hold& hold) const;
+  std::string fault_of(const Key& key) const;
+  std::string fault_of(const Glimpse& glimpse) const;
+  template <class Item>
+  std::string first_fault(const std::vector<Item>& list) const;
+  bool is_body(std::uint32_t number) const { return number < constants_of_.size(); }
+  bool is_of_kind(std::uint32_t number, physics::BodyKind kind) const { return is_body(number) && constants_[constants_of_[number]].kind == kind; }
+  bool is_place(const Vector2& place) const;
+
+  double reach_ = 0.0;                        ///< no coordinate lies farther from the field's corner [m]
+  std::size_t material_count_ = 0;
+  std::vector<BodyConstants> constants_;      ///< each once: a scene has few
+  std::vector<std::uint32_t> constants_of_;   ///< by body
+};
+
+}  // namespace rink::peer

@@ -1,0 +1,221 @@
+// Liars: every field of what one peer sends another, wrong in each way that the receiver can see, is named and not taken.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "game/peer/validation.h"
+#include "tests/peer/shared_scenes.h"
+
+namespace rink::peer::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t nobody = 4'000'000'000;
+
+/// A scene with bats and pucks in the middle of a game, and what an honest peer says of it.
+struct Honest {
+  SharedScene scene = shared_scene(6, 0.2);
+  Validator validator{scene.world};
+  std::uint32_t bat = 0, puck = 0;
+  Arrivals arrivals{.window = 3, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}};
+
+  Honest() {
+    scene.world.advance(0.2);
+    for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) {
+      if (scene.world.kind({body}) == physics::BodyKind::bat) bat = body;
+      if (scene.world.kind({body}) == physics::BodyKind::puck) puck = body;
+      arrivals.bodies.push_back({body, physics::Portion::state_in(scene.world, body)});
+    }
+    // Rest contacts are made up so that every one that a body says it is in is there.
+    for (const Arrivals::Body& body : arrivals.bodies)
+      for (const int axis : {0, 1})
+        if (physics::Portion::is_held_along(body.state, axis))
+          arrivals.holds.push_back({.low = physics::partner::wall_left, .high = body.number, .axis = axis, .age = {}});
+    arrivals.holds.push_back({.low = physics::partner::wall_left, .high = puck, .axis = 0, .age = {}});
+    arrivals.flown.push_back(Flown::of(puck, arrivals.bodies[puck].state.flight));
+    arrivals.keys.push_back({.time = 0.3, .bat = bat, .thrust = {1.0, 0.0}});
+    const Vector2 place(0.3, 0.3);
+    arrivals.glimpses.push_back({.bat = bat, .owner = 1, .time = 0.2, .position = place, .pucks = {{.number = puck, .position = place, .radius = 0.04}}});
+  }
+  BodyState& state() { return arrivals.bodies[puck].state; }
+};
+
+TEST(Validator, FindsNoFaultInWhatIsHonest) {
+  Honest honest;
+  ASSERT_NE(honest.bat, honest.puck);
+  EXPECT_EQ(honest.validator.fault_of(honest.arrivals), "");
+  EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}}, .presses = {{honest.bat, {1.0, 0.0}, 1}}}), "");
+  EXPECT_EQ(honest.validator.fault_of(Verdict{.window = 1, .goals = {{0.1, honest.puck, true}}}), "");
+  EXPECT_EQ(honest.validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}}), "");
+  const PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = honest.arrivals.bodies, .gone = {honest.puck}, .holds = honest.arrivals.holds, .keys = honest.arrivals.keys, .log = {}};
+  EXPECT_EQ(honest.validator.fault_of(part), "");
+}
+
+using Lie = std::function<void(Honest&)>;
+
+/// Each number of a body's state that must be one, or within bounds.
+std::vector<Lie> lies_about_numbers() {
+  std::vector<Lie> lies;
+  const auto each = [&](const std::function<double&(BodyState&)>& field, std::initializer_list<double> wrong) {
+    for (const double value : wrong) lies.push_back([=](Honest& honest) { field(honest.state()) = value; });
+  };
+  constexpr double inf = HUGE_VAL;
+  each([](BodyState& s) -> double& { return s.flight.x; }, {nan, inf, -inf, 1e300, -1e9});
+  each([](BodyState& s) -> double& { return s.flight.y; }, {nan, inf, -inf, 1e300, -1e9});
+  each([](BodyState& s) -> double& { return s.flight.vx; }, {nan, inf, -inf, 1e300});
+  each([](BodyState& s) -> double& { return s.flight.vy; }, {nan, inf, -inf, 1e300});
+  each([](BodyState& s) -> double& { return s.flight.time; }, {nan, inf, -inf});
+  each([](BodyState& s) -> double& { return s.flight.radius; }, {nan, inf, -1.0, 0.0, 10.0});
+  each([](BodyState& s) -> double& { return s.mass; }, {nan, inf, 0.0, -1.0, 77.0});
+  each([](BodyState& s) -> double& { return s.inverse_mass; }, {nan, inf, -1.0, 77.0});
+  each([](BodyState& s) -> double& { return s.half_extent.x(); }, {nan, inf, -1.0, 77.0});
+  each([](BodyState& s) -> double& { return s.half_extent.y(); }, {nan, inf, -1.0, 77.0});
+  each([](BodyState& s) -> double& { return s.thrust.x(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.thrust.y(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.acceleration.x(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.acceleration.y(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.drag.x(); }, {nan, inf, -0.1});
+  each([](BodyState& s) -> double& { return s.drag.y(); }, {nan, inf, -0.1});
+  each([](BodyState& s) -> double& { return s.impacts_begin; }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.last_hop; }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.repeats_instant; }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.rest_time; }, {nan});
+  each([](BodyState& s) -> double& { return s.slowing.x(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.slowing.y(); }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.spin; }, {nan, inf});
+  return lies;
+}
+
+std::vector<Lie> lies_about_kinds() {
+  return {[](Honest& honest) { honest.state().kind = physics::BodyKind::bat; },
+          [](Honest& honest) { honest.state().material = 200; },
+          [](Honest& honest) { honest.state().half = physics::Half::left; },
+          [](Honest& honest) { honest.state().flags = 4; },
+          [](Honest& honest) { honest.state().flags = 64; },
+          [](Honest& honest) { honest.state().flags = 128; },
+          [](Honest& honest) { honest.state().mouth = 3; },
+          [](Honest& honest) { honest.state().flags = 32, honest.state().jam = nobody; },
+          [](Honest& honest) { honest.state().flags = 8 | 16; },
+          [](Honest& honest) { honest.arrivals.bodies[0].number = nobody; },
+          [](Honest& honest) { honest.arrivals.bodies[0].number = honest.scene.world.body_count(); },
+          [](Honest& honest) { std::swap(honest.arrivals.bodies[honest.bat].number, honest.arrivals.bodies[honest.puck].number); }};
+}
+
+std::vector<Lie> lies_beside_bodies() {
+  return {[](Honest& honest) { honest.arrivals.holds.back().low = nobody; },
+          [](Honest& honest) { honest.arrivals.holds.back().high = nobody; },
+          [](Honest& honest) { honest.arrivals.holds.back().high = physics::partner::wall_top; },
+          [](Honest& honest) { honest.arrivals.holds.back().low = physics::partner::stop; },
+          [](Honest& honest) { honest.arrivals.holds.back().low = honest.arrivals.holds.back().high; },
+          [](Honest& honest) { honest.arrivals.holds.back().pull_time = nan; },
+          [](Honest& honest) { honest.arrivals.holds.back().turn_time = nan; },
+          [](Honest& honest) { honest.arrivals.holds.back().force = nan; },
+          [](Honest& honest) { honest.arrivals.holds.back().age.time = nan; },
+          [](Honest& honest) { honest.arrivals.flown[0].number = nobody; },
+          [](Honest& honest) { honest.arrivals.flown[0].position.x() = nan; },
+          [](Honest& honest) { honest.arrivals.flown[0].velocity.y() = HUGE_VAL; },
+          [](Honest& honest) { honest.arrivals.flown[0].time = nan; },
+          [](Honest& honest) { honest.arrivals.keys[0].bat = nobody; },
+          [](Honest& honest) { honest.arrivals.keys[0].bat = honest.puck; },
+          [](Honest& honest) { honest.arrivals.keys[0].thrust.x() = nan; },
+          [](Honest& honest) { honest.arrivals.keys[0].time = nan; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].bat = nobody; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].position.x() = nan; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].velocity.x() = nan; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].time = nan; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].number = nobody; },
+          [](Honest& honest) { honest.arrivals.glimpses[0].pucks[0].radius = -1.0; }};
+}
+
+void expect_seen(const std::vector<Lie>& lies) {
+  for (std::size_t k = 0; k < lies.size(); ++k) {
+    Honest honest;
+    lies[k](honest);
+    EXPECT_NE(honest.validator.fault_of(honest.arrivals), "") << "lie " << k;
+  }
+}
+
+TEST(Validator, SeesEachNumberOfABodyThatCannotBe) { expect_seen(lies_about_numbers()); }
+TEST(Validator, SeesEachConstantOfABodyThatIsNotTheScenes) { expect_seen(lies_about_kinds()); }
+TEST(Validator, SeesContactsFlightsKeysAndGlimpsesThatCannotBe) { expect_seen(lies_beside_bodies()); }
+
+TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
+  Honest honest;
+  const Validator& validator = honest.validator;
+  EXPECT_THAT(validator.fault_of(Claims{.window = 1, .bodies = {{nobody, 0, false}}, .flights = {}, .presses = {}}), HasSubstr("4000000000"));
+  for (const ClaimedFlight& flight : {ClaimedFlight{nan, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, std::nanf(""), 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, 0.0f, 2.0f, 1.0f, 1.0f}})
+    EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {flight}, .presses = {}}), "");
+  for (const std::uint32_t bat : {nobody, honest.puck}) EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{bat, {1.0, 0.0}, 1}}}), "");
+  for (const std::uint32_t puck : {nobody, honest.bat}) EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
+  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}), "");
+  Arrivals::Body lie = honest.arrivals.bodies[honest.puck];
+  lie.state.flight.vx = nan;
+  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}), "");
+  PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = {lie}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+  EXPECT_NE(validator.fault_of(part), "");
+  part.bodies.clear(), part.gone = {nobody};
+  EXPECT_NE(validator.fault_of(part), "");
+  part.gone.clear(), part.time = nan;
+  EXPECT_NE(validator.fault_of(part), "");
+}
+
+/// Two halves of a gas up to where the right one's peer hands over what is near the border.
+struct HandOver {
+  SharedScene scene = shared_scene(0, 1.0);
+  Division division = Division::into_strips(scene.world.spec().field, 2);
+  Peer left{scene.world.spec(), division, 0, scene.world.body_count(), 0.3}, right{scene.world.spec(), division, 1, scene.world.body_count(), 0.3};
+  Arrivals arrivals;
+
+  HandOver() {
+    for (Peer* peer : {&left, &right}) {
+      peer->validate_by(Validator(scene.world));
+      for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) peer->consider(body, physics::Portion::state_in(scene.world, body));
+      peer->begin(0.01);
+      peer->play();
+    }
+    left.hear(1, right.claims_for(0)), right.hear(0, left.claims_for(1));
+    left.hear(1, right.judge()), right.hear(0, left.judge());
+    EXPECT_EQ(left.conclude(), Outcome::final);
+    EXPECT_EQ(right.conclude(), Outcome::final);
+    arrivals = right.arrivals_for(0, 0.02);
+    arrivals.bodies.push_back({right.owned().front(), right.state(right.owned().front())});
+  }
+  /// The left peer hears it, names the right one, takes nothing of it, and can go on.
+  void expect_named(const char* fault) {
+    left.hear(1, arrivals);
+    EXPECT_THAT(left.accusation(), StartsWith("peer 1 "));
+    EXPECT_THAT(left.accusation(), HasSubstr(fault));
+    left.commit(0.02);
+    left.play();
+    for (const std::uint32_t body : left.owned()) EXPECT_TRUE(std::isfinite(left.state(body).flight.vx));
+  }
+};
+
+TEST(Peer, NamesWhoHandsOverARestContactOfBodiesThatDoNotExist) {
+  HandOver scene;
+  scene.arrivals.holds.push_back({.low = nobody, .high = nobody + 1, .axis = 0, .age = {}});
+  scene.expect_named("rest contact of body 4000000000");
+}
+
+TEST(Peer, NamesWhoHandsOverAVelocityThatIsNoNumber) {
+  HandOver scene;
+  scene.arrivals.bodies.back().state.flight.vx = nan;
+  scene.expect_named("at no place, speed or time");
+}
+
+TEST(Peer, NamesWhoHandsOverABodyHeavierThanTheScenes) {
+  HandOver scene;
+  scene.arrivals.bodies.back().state.mass *= 2.0;
+  scene.expect_named("that the scene does not give it");
+}
+
+}  // namespace
+}  // namespace rink::peer::test
