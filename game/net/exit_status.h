@@ -19,12 +19,13 @@ enum class ExitStatus : int {
   connection_lost = 16,
   nobody_came = 17,    ///< the players that were waited for did not all join in time
   no_display = 18,   ///< and so no window, or no OpenGL 3.3
+  may_have_split = 19, ///< a peer went on alone, and the other may have done so too
   interrupted = 130
 };
 
 inline constexpr const char* exit_status_help =
     "Exit status: 0 done, 1 failed, 2 bad flag or file, 10 address in use, 11 no server there, 12 wrong protocol version, 13 wrong object model,\n"
-    "14 not admitted, 15 too few file descriptors, 16 connection lost, 17 players did not come, 18 no display, 130 interrupted.";
+    "14 not admitted, 15 too few file descriptors, 16 connection lost, 17 players did not come, 18 no display,\n19 a peer went on alone and the other may have too, 130 interrupted.";
 
 constexpr ExitStatus exit_status(rti::Refusal refusal) {
   if (refusal == rti::Refusal::wrong_version) return ExitStatus::wrong_version;

@@ -84,6 +84,8 @@ class Session {
   /// The own bodies go to others with the next window, and with the one after that this peer is no longer needed. It must be mirrored.
   void leave() { wishes_to_leave_ = true; }
   bool has_left() const { return has_left_; }
+  /// It went on after a loss after which others may have gone on too, on their own: what it has in the end is the state of one part.
+  bool may_have_split() const { return may_have_split_; }
 
   /// An own player's key, as Peer::press.
   void press(const Glimpse& seen, const Press& press);
@@ -155,8 +157,9 @@ class Session {
   bool hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes);
   void go_back(PeerNumber as);
   void send_away(const State& state);
-  bool has_majority(std::vector<PeerNumber> voters) const;
-  void require_majority() const;
+  enum class Majority : std::uint8_t { none, doubtful, sure };
+  Majority majority_of(std::vector<PeerNumber> voters) const;
+  void require_majority();
   std::vector<PeerNumber> stood_for() const;
   Arrivals share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
   void rebuild();
@@ -180,7 +183,7 @@ class Session {
   std::vector<Arrivals> parts_;       // everybody's, in the end
   PeerNumber teller_ = 0;             // of a newcomer: whose entry it took
   std::vector<Newcomer> asking_;      // here, of whom nothing was decided yet
-  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false;
+  bool must_recover_ = false, wishes_to_leave_ = false, has_left_ = false, is_newcomer_ = false, may_have_split_ = false;
   SessionCounters counters_;
 };
 

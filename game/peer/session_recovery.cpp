@@ -96,17 +96,20 @@ void Session::send_away(const State& state) {
   for (const Candidate& candidate : state.candidates) mail_.admit(candidate.number, false);
 }
 
-/// More than half of them are left; or half, with the first of them. Of two, either.
-bool Session::has_majority(std::vector<PeerNumber> voters) const {
+/// More than half of them are left; or half, with the first of them. Of two, either goes on, but the second one cannot know whether the first does too.
+Session::Majority Session::majority_of(std::vector<PeerNumber> voters) const {
   std::erase_if(voters, [&](PeerNumber peer) { return State::is_in(finished_, peer); });
   const std::size_t count = voters.size();
   const auto left = static_cast<std::size_t>(std::count_if(voters.begin(), voters.end(), [&](PeerNumber peer) { return !is_gone(peer); }));
-  return left > 0 && (count == 2 || 2 * left > count || (2 * left == count && !is_gone(voters.front())));
+  if (left > 0 && (2 * left > count || (2 * left == count && !is_gone(voters.front())))) return Majority::sure;
+  return left > 0 && count == 2 ? Majority::doubtful : Majority::none;
 }
 
 /// Sides that are a step apart must have somebody in common, too.
-void Session::require_majority() const {
-  if (has_majority(now_.voters()) && has_majority(now_.next_voters())) return;
+void Session::require_majority() {
+  const Majority majority = std::min(majority_of(now_.voters()), majority_of(now_.next_voters()));
+  may_have_split_ = may_have_split_ || majority == Majority::doubtful;
+  if (majority != Majority::none) return;
   const auto left = std::count_if(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) { return !is_gone(peer); });
   halt(last_loss_ + ". On this side " + std::to_string(left) + " of " + std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }

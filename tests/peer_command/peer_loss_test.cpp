@@ -39,6 +39,30 @@ TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
   EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.last_words();
   ASSERT_TRUE(ends(second));
   EXPECT_EQ(hash_of(second), truth(2.0));
+  EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::may_have_split)) << "it cannot know that the first one is dead";
+  EXPECT_THAT(second.last_words(), HasSubstr("the other may have done so too"));
+}
+
+TEST_F(PeerLoss, OfTheSecondOfTwoLeavesTheFirstWithTheSession) {
+  Process& first = found(2, "2", {"--pace", "realtime"});
+  Process& second = join(first);
+  ASSERT_TRUE(are_playing({&first, &second}));
+  ASSERT_EQ(kill(second.id(), SIGKILL), 0);
+  ASSERT_TRUE(ends(first));
+  EXPECT_EQ(hash_of(first), truth(2.0));
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+}
+
+TEST_F(PeerLoss, OfEachOtherLetsAtMostOneOfTwoEndWithStatusZero) {
+  Process& first = found(2, "3", {"--pace", "realtime", "--patience", "0.5"});
+  Process& second = join(first, {"--patience", "0.5"});
+  ASSERT_TRUE(are_playing({&first, &second}));
+  ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
+  EXPECT_TRUE(says(first, "this peer goes on alone", 3s)) << first.last_words();
+  ASSERT_EQ(kill(second.id(), SIGCONT), 0);
+  for (const Process* peer : {&first, &second}) ASSERT_TRUE(ends(*peer));
+  EXPECT_EQ(first.ending()->exit_status, 0) << first.last_words();
+  EXPECT_NE(second.ending()->exit_status, 0) << second.last_words();
 }
 
 TEST_F(PeerLoss, IsNotWhatTwoSecondsOfSilenceAre) {

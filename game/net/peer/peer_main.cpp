@@ -183,6 +183,10 @@ game::ExitStatus report(const Options& options, const game::SharedGame& shared, 
   const bool is_told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (!is_told) spdlog::error("the report could not be written to the standard output");
   if (!part.has_left) write_record(options, shared, part);
+  if (part.may_have_split && !part.has_left) {
+    spdlog::warn("this peer went on alone, and the other may have done so too: the hash is that of one part");
+    return game::ExitStatus::may_have_split;
+  }
   return part.has_left ? game::ExitStatus::interrupted : is_told ? game::ExitStatus::ok : game::ExitStatus::failed;
 }
 

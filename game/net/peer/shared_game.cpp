@@ -230,6 +230,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const Guest> guests, p
   membership.tell();
   part.members = session.members().size();
   part.counters = session.counters();
+  part.may_have_split = session.may_have_split();
   part.lost = session.lost();
   part.time = session.peer().now();
   part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(), part.halo = session.peer().halo();

@@ -20,6 +20,7 @@ struct PlayedPart {
   peer::SessionCounters counters;
   bool has_left = false;                ///< before the end, in good order: then there is no hash
   bool was_last = false;                ///< and nobody else was left
+  bool may_have_split = false;          ///< another part of the session may have gone on without this one
   std::uint64_t members = 0;            ///< how many played on in the end
   std::vector<peer::PeerNumber> lost;   ///< who was
   double time = 0.0;                    ///< how far it came [s]
