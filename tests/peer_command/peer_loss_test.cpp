@@ -43,6 +43,43 @@ TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
   EXPECT_THAT(second.last_words(), HasSubstr("the other may have done so too"));
 }
 
+TEST_F(PeerLoss, OfOneThatFallsSilentBeforeAllAreThereKeepsNobodyWaiting) {
+  const Words patience{"--patience", "0.5"};
+  Process& first = found(3, "2", patience);
+  Process& second = join(first, patience);
+  ASSERT_TRUE(until([&] { return second.line_after("peer ").has_value(); }));
+  ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
+  ASSERT_TRUE(ends(first, 5s));
+  EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+  EXPECT_THAT(first.last_words(), HasSubstr("peer 1 (" + place_of(second) + ") has said nothing"));
+  ASSERT_EQ(kill(second.id(), SIGCONT), 0);
+  ASSERT_TRUE(ends(second, 5s));
+  EXPECT_NE(second.ending()->exit_status, 0);
+}
+
+TEST_F(PeerLoss, OfOneThatIsKilledBeforeAllAreThereKeepsNobodyWaiting) {
+  Process& first = found(3, "2");
+  Process& second = join(first);
+  ASSERT_TRUE(until([&] { return second.line_after("peer ").has_value(); }));
+  ASSERT_EQ(kill(second.id(), SIGKILL), 0);
+  ASSERT_TRUE(ends(first, 5s));
+  EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+  EXPECT_THAT(first.last_words(), HasSubstr("is gone"));
+}
+
+TEST_F(PeerLoss, ThatIsNoneWhileTwoWaitLongerThanTheirPatienceForAThird) {
+  const Words patience{"--patience", "0.5"};
+  Process& first = found(3, "0.2", patience);
+  Process& second = join(first, patience);
+  until([] { return false; }, 2s);
+  Process& third = join(first, patience);
+  for (const Process* peer : {&first, &second, &third}) {
+    ASSERT_TRUE(ends(*peer));
+    EXPECT_EQ(peer->ending()->exit_status, 0) << peer->last_words();
+    EXPECT_EQ(hash_of(*peer), truth(0.2));
+  }
+}
+
 TEST_F(PeerLoss, OfTheSecondOfTwoLeavesTheFirstWithTheSession) {
   Process& first = found(2, "2", {"--pace", "realtime"});
   Process& second = join(first);

@@ -1,4 +1,5 @@
 // Who is let in, as which number, and who is told what.
+#include <algorithm>
 #include <utility>
 
 #include "game/net/peer/difference.h"
@@ -49,8 +50,20 @@ bool Meeting::are_all_here() const {
   return true;
 }
 
+/// Who has come and falls silent before all are there would keep the others waiting for ever: it neither plays nor closes its connection.
 void Meeting::gather() {
-  while (!are_all_here()) attend(0.05);
+  double begin_s = now_s_(), looked_s = begin_s;
+  while (!are_all_here()) {
+    attend(0.05);
+    show_signs();
+    const double now = now_s_();
+    // Who was stopped itself has not read yet what others said meanwhile.
+    if (now - looked_s > 0.5 * settings_.patience_s) begin_s = now;
+    looked_s = now;
+    for (const auto& [connection, link] : links_)
+      if (link.role == Role::peer && !link.is_closed && now > std::max({begin_s, link.since_s, link.heard_s}) + settings_.patience_s)
+        throw Parting(ExitStatus::connection_lost, name_of(link) + " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s, before all were there");
+  }
 }
 
 void Meeting::become_peer(rti::ConnectionId connection, peer::PeerNumber number, const Guest& guest) {
