@@ -111,7 +111,8 @@ void Session::greet(const State& next) {
 }
 
 Session::Session(const physics::World& whole, SessionSettings settings, Mail& mail, std::vector<PeerNumber> members)
-    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole), now_{.cuts = Cuts::whole(whole.spec().field)}, before_(now_), division_(now_.division()), is_newcomer_(true) {
+    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole),
+      now_{.cuts = Cuts::whole(whole.spec().field)}, before_(now_), division_(now_.division()), is_newcomer_(true) {
   assert(settings_.is_mirrored && !members.empty());
   enter_late(std::move(members));
 }
