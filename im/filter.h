@@ -16,6 +16,11 @@ struct Region {
   friend bool operator==(const Region&, const Region&) = default;
 };
 
+/// The smallest rectangle that holds both.
+constexpr Region hull_of(const Region& a, const Region& b) {
+  return {a.low_x < b.low_x ? a.low_x : b.low_x, a.low_y < b.low_y ? a.low_y : b.low_y, a.high_x > b.high_x ? a.high_x : b.high_x, a.high_y > b.high_y ? a.high_y : b.high_y};
+}
+
 /// True if `region` is finite and not inverted, as every filter asserts of what it is given. For the edge, where regions come from strangers.
 bool is_valid(const Region& region);
 
@@ -119,6 +124,11 @@ class Filter {
   virtual void set_flight(Entity, const Flight&) {}
   virtual void set_subscriber_flight(Subscriber, const Flight&) {}
   virtual void set_time(double) {}
+
+  /// As the two setters above, of what flies in a straight line from `from` to `to`, rectangles of one size: all that could be relevant with it anywhere in between is, and perhaps
+  /// more. By default that is the rectangle around both; a scheme whose shape in it would leave some of them out says more (docs/im.md, "Swept").
+  virtual void set_swept_update_region(Entity entity, const Region& from, const Region& to) { set_update_region(entity, hull_of(from, to)); }
+  virtual void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) { set_subscription_region(subscriber, hull_of(from, to)); }
 
   /// The net changes since the last call, ordered by (subscriber, entity). Valid until the next call of any member.
   virtual std::span<const Change> match() = 0;

@@ -21,6 +21,11 @@ class GridFilter final : public OverlapFilter {
     if (entity >= cells_.size()) cells_.resize(entity + std::size_t{1}, unpacked);
     cells_[entity] = cell;
   }
+  /// All cells of the rectangle that its centre crosses.
+  void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
+    OverlapFilter::set_update_region(entity, cells_of(hull_of(centre_of(from), centre_of(to)), world_, cell_size_));
+    if (entity < cells_.size()) cells_[entity] = unpacked;
+  }
   void remove_entity(Entity entity) override {
     OverlapFilter::remove_entity(entity);
     if (entity < cells_.size()) cells_[entity] = unpacked;

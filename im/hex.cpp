@@ -1,4 +1,5 @@
 // The scheme `hex`: an entity matters to a subscriber while the hexagon that its centre is in touches the subscriber's region.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,13 @@ class HexFilter final : public PredicateFilter<TouchesHexagon> {
   HexFilter(const Region& world, double cell_size) : PredicateFilter(world, {cell_size}), world_(world), width_(cell_size) {}
 
   void set_update_region(Entity entity, const Region& region) override { PredicateFilter::set_update_region(entity, hexagon_around(centre_of(region))); }
+  /// No point is farther from its hexagon's middle than a corner is, nor from any point of the hexagon than twice that.
+  void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
+    const Region centres = hull_of(centre_of(from), centre_of(to));
+    const double across = 2.0 * width_ / sqrt3;
+    const auto bounded = [](double coordinate) { return std::clamp(coordinate, -largest, largest); };
+    sweep_entity(entity, {bounded(centres.low_x - across), bounded(centres.low_y - across), bounded(centres.high_x + across), bounded(centres.high_y + across)});
+  }
   double cell_size() const override { return width_; }
 
  private:

@@ -11,6 +11,8 @@ class HierarchicalFilter final : public OverlapFilter {
   HierarchicalFilter(const Region& world, double cell_size) : OverlapFilter(world), world_(world), cell_size_(cell_size) {}
 
   void set_update_region(Entity entity, const Region& region) override { OverlapFilter::set_update_region(entity, cell_around(region)); }
+  /// All cells of its level between those at both ends.
+  void set_swept_update_region(Entity entity, const Region& from, const Region& to) override { OverlapFilter::set_update_region(entity, hull_of(cell_around(from), cell_around(to))); }
   double cell_size() const override { return cell_size_; }
 
  private:

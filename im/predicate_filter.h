@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "im/candidate_pairs.h"
 #include "im/odometer.h"
@@ -36,11 +37,30 @@ class PredicateFilter : public OverlapFilter {
  public:
   explicit PredicateFilter(const Region& world, Relevant relevant = {}) : OverlapFilter(world), relevant_(std::move(relevant)) {}
 
+  void set_update_region(Entity entity, const Region& region) override {
+    swept_entities_.unset(entity);
+    OverlapFilter::set_update_region(entity, region);
+  }
+  void set_subscription_region(Subscriber subscriber, const Region& region) override {
+    swept_subscribers_.unset(subscriber);
+    OverlapFilter::set_subscription_region(subscriber, region);
+  }
+  /// While one of both is swept the predicate is not asked: it knows one place, and may be true at another. That their rectangles overlap somewhere is enough.
+  void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
+    if (from == to) set_update_region(entity, from);
+    else sweep_entity(entity, hull_of(from, to));
+  }
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+    set_subscription_region(subscriber, hull_of(from, to));
+    if (from != to) swept_subscribers_.set(subscriber);
+  }
   void remove_entity(Entity entity) override {
+    swept_entities_.unset(entity);
     OverlapFilter::remove_entity(entity);
     pairs_.remove_entity(entity);
   }
   void remove_subscriber(Subscriber subscriber) override {
+    swept_subscribers_.unset(subscriber);
     OverlapFilter::remove_subscriber(subscriber);
     pairs_.remove_subscriber(subscriber);
   }
@@ -59,6 +79,11 @@ class PredicateFilter : public OverlapFilter {
   std::size_t bytes() const { return OverlapFilter::bytes() + pairs_.bytes() + sizeof(Change) * changes_.capacity() + entity_ways_.bytes() + subscriber_ways_.bytes(); }
 
  protected:
+  /// Of an entity that is swept over `hull`.
+  void sweep_entity(Entity entity, const Region& hull) {
+    OverlapFilter::set_update_region(entity, hull);
+    swept_entities_.set(entity);
+  }
   /// Something else than its region changed what `subscriber` wants: by no more than a change of its region by so many metres would, or by who knows how much.
   void turned(Subscriber subscriber, double length) { subscriber_ways_.add(subscriber, length); }
   void turned(Subscriber subscriber) { pairs_.wake(subscriber); }
@@ -72,6 +97,7 @@ class PredicateFilter : public OverlapFilter {
   }
 
   bool decide(Subscriber subscriber, Entity entity, bool was, float& rests_until) {
+    if (swept_entities_.has(entity) || swept_subscribers_.has(subscriber)) return rests_until = -std::numeric_limits<float>::infinity(), true;
     const double way = entity_ways_[entity] + subscriber_ways_[subscriber];
     if (way < static_cast<double>(rests_until) || (!entities_.has_moved(entity) && !subscribers_.has_moved(subscriber))) return was;
     ++counters_.pairs_tested;
@@ -84,8 +110,25 @@ class PredicateFilter : public OverlapFilter {
     return is.is_relevant;
   }
 
+  /// Which ids are swept; takes no memory until one is.
+  class Marks {
+   public:
+    bool has(std::uint32_t id) const { return id < marks_.size() && marks_[id] != 0; }
+    void set(std::uint32_t id) {
+      if (id >= marks_.size()) marks_.resize(id + std::size_t{1});
+      marks_[id] = 1;
+    }
+    void unset(std::uint32_t id) {
+      if (id < marks_.size()) marks_[id] = 0;
+    }
+
+   private:
+    std::vector<std::uint8_t> marks_;
+  };
+
   Relevant relevant_;
   CandidatePairs pairs_;
+  Marks swept_entities_, swept_subscribers_;
   Odometer entity_ways_, subscriber_ways_;
   Buffer<Change> changes_;
 };

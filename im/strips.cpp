@@ -12,6 +12,10 @@ class StripsFilter final : public OverlapFilter {
 
   void set_update_region(Entity entity, const Region& region) override { OverlapFilter::set_update_region(entity, strips_of(cells_of(centre_of(region), world_, width_))); }
   void set_subscription_region(Subscriber subscriber, const Region& region) override { OverlapFilter::set_subscription_region(subscriber, strips_of(cells_of(region, world_, width_))); }
+  /// All strips that its middle crosses.
+  void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
+    OverlapFilter::set_update_region(entity, strips_of(cells_of(hull_of(centre_of(from), centre_of(to)), world_, width_)));
+  }
   double cell_size() const override { return width_; }
 
  private:

@@ -15,6 +15,12 @@ void Parts::set_subscription_region(Subscriber subscriber, const Region& region)
 void Parts::remove_subscriber(Subscriber subscriber) {
   for (const auto& part : parts_) part->remove_subscriber(subscriber);
 }
+void Parts::set_swept_update_region(Entity entity, const Region& from, const Region& to) {
+  for (const auto& part : parts_) part->set_swept_update_region(entity, from, to);
+}
+void Parts::set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) {
+  for (const auto& part : parts_) part->set_swept_subscription_region(subscriber, from, to);
+}
 void Parts::set_heading(Subscriber subscriber, const Heading& heading) {
   for (const auto& part : parts_) part->set_heading(subscriber, heading);
 }

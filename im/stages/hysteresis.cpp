@@ -21,6 +21,10 @@ class Hysteresis final : public ReviewedParts {
     parts_[0]->set_subscription_region(subscriber, region);
     parts_[1]->set_subscription_region(subscriber, grown(region, margin_));
   }
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+    parts_[0]->set_swept_subscription_region(subscriber, from, to);
+    parts_[1]->set_swept_subscription_region(subscriber, grown(from, margin_), grown(to, margin_));
+  }
   std::span<const Change> match() override {
     return matched([this](PairStates::Says says, PairStates::Level was) { return decide(says, was); });
   }

@@ -49,7 +49,7 @@ class Flights {
     all_[id] = Own{}, all_[id].is_listed = is_listed, all_[id].is_news = is_news;
   }
 
-  /// A decision stands until the next match, so a region is made anew when less than half of its horizon is left. Hands it to `hand_on(id, region)`.
+  /// A decision stands until the next match, so a region is made anew when less than half of its horizon is left. Hands its places at both ends to `hand_on(id, from, to)`.
   /// Who rests or has no flight any more goes off the list and costs nothing from then on.
   template <class HandOn>
   std::size_t sweep(double now, double horizon, double drag, const HandOn& hand_on) {
@@ -57,7 +57,7 @@ class Flights {
     for (const std::uint32_t id : flying_.span()) {
       Own& own = all_[id];
       const bool is_flying = own.is_told && (own.flight.velocity_x != 0.0 || own.flight.velocity_y != 0.0);
-      if (own.is_told && own.holds_until < now + 0.5 * horizon) hand_on(id, path(own, now, horizon, drag)), own.holds_until = now + horizon, ++swept;
+      if (own.is_told && own.holds_until < now + 0.5 * horizon) hand_on(id, place(own, now, drag), place(own, now + horizon, drag)), own.holds_until = now + horizon, ++swept;
       if (is_flying) flying_[kept++] = id;
       else own.is_listed = false;
     }
@@ -75,12 +75,12 @@ class Flights {
   void mark(std::uint32_t id) {
     if (!all_[id].is_news) all_[id].is_news = true, news_.push_back(id);
   }
-  /// Along each axis a flight never turns back, so the boxes at both ends hold all between.
-  static Region path(const Own& own, double now, double horizon, double drag) {
+  /// Against the same drag along both axes a flight is a straight line, so all places between two times lie between those at both ends.
+  static Region place(const Own& own, double time, double drag) {
     constexpr double largest = std::numeric_limits<double>::max();
     const auto bounded = [=](double coordinate) { return std::clamp(coordinate, -largest, largest); };
-    const Flight from = at_time(own.flight, now, drag), to = at_time(own.flight, now + horizon, drag);
-    return {bounded(std::min(from.x, to.x) - own.half.x), bounded(std::min(from.y, to.y) - own.half.y), bounded(std::max(from.x, to.x) + own.half.x), bounded(std::max(from.y, to.y) + own.half.y)};
+    const Flight at = at_time(own.flight, time, drag);
+    return {bounded(at.x - own.half.x), bounded(at.y - own.half.y), bounded(at.x + own.half.x), bounded(at.y + own.half.y)};
   }
 
   std::vector<Own> all_;
@@ -123,8 +123,8 @@ class Swept final : public Parts {
 
   std::span<const Change> match() override {
     Filter& inner = *parts_.front();
-    regions_swept_ += entities_.sweep(now_, horizon_, drag_, [&inner](Entity entity, const Region& region) { inner.set_update_region(entity, region); });
-    regions_swept_ += subscribers_.sweep(now_, horizon_, drag_, [&inner](Subscriber subscriber, const Region& region) { inner.set_subscription_region(subscriber, region); });
+    regions_swept_ += entities_.sweep(now_, horizon_, drag_, [&inner](Entity entity, const Region& from, const Region& to) { inner.set_swept_update_region(entity, from, to); });
+    regions_swept_ += subscribers_.sweep(now_, horizon_, drag_, [&inner](Subscriber subscriber, const Region& from, const Region& to) { inner.set_swept_subscription_region(subscriber, from, to); });
     const std::span<const Change> let_through = inner.match();
     for (const Entity entity : entities_.news()) pairs_.touch_near(entity);
     for (const Subscriber subscriber : subscribers_.news()) pairs_.touch(subscriber);

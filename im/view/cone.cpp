@@ -63,6 +63,10 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     make_room(subscriber);
     PredicateFilter::set_subscription_region(subscriber, region);
   }
+  void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+    make_room(subscriber);
+    PredicateFilter::set_swept_subscription_region(subscriber, from, to);
+  }
   void remove_subscriber(Subscriber subscriber) override {
     forget(subscriber);
     PredicateFilter::remove_subscriber(subscriber);
