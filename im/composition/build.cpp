@@ -172,16 +172,6 @@ std::string judge_settings(const FilterSettings& settings) {
   return {};
 }
 
-/// True if it has a `not` of a scheme that looks at places.
-bool denies_places(const Expression& expression) {
-  const auto looks_at_places = [](const auto& self, const Expression& each) -> bool {
-    if (each.kind == Kind::scheme) return each.name != "always" && each.name != "owner" && each.name != "team";
-    return std::any_of(each.operands.begin(), each.operands.end(), [&](const Expression& operand) { return self(self, operand); });
-  };
-  if (expression.kind == Kind::negation && looks_at_places(looks_at_places, expression)) return true;
-  return std::any_of(expression.operands.begin(), expression.operands.end(), denies_places);
-}
-
 }  // namespace
 
 std::string judge_expression(const Expression& expression) {
@@ -192,8 +182,6 @@ std::string judge_expression(const Expression& expression) {
     if (std::find(names.begin(), names.end(), expression.name) == names.end())
       return std::string("no ") + (expression.kind == Kind::stage ? "stage" : "scheme") + " is called '" + expression.name + "'; there are " + listed(names);
     if (std::string complaint = judge_parameters(expression); !complaint.empty()) return complaint;
-    if (expression.name == "swept" && denies_places(expression.operands.front()))
-      return "swept cannot follow the 'not' of a scheme that looks at places: whoever it leaves out at one place on the way it lets in at another";
   } else if (operand_count(expression) >= PairStates::filter_max) {
     return "more than 15 schemes in one combination";
   }

@@ -145,16 +145,5 @@ TEST(SweptShapes, LeaveTheDiscOfOneWhoRestsExact) {
   EXPECT_EQ(seen, std::vector<Entity>{1});
 }
 
-TEST(SweptShapes, CannotBeMadeOfTheNegationOfAPlace) {
-  const FilterSettings settings{.world = {0.0, 0.0, 10.0, 10.0}};
-  for (const char* text : {"not region with swept(horizon=1)", "(aura and not sight) with swept(horizon=1)", "(region or not (team and cone)) with dwell(matches=2) with swept(horizon=1)"}) {
-    const auto complaint = complaint_about(text, settings);
-    ASSERT_TRUE(complaint.has_value()) << text;
-    EXPECT_NE(complaint->find("swept cannot follow the 'not'"), std::string::npos) << *complaint;
-  }
-  for (const char* text : {"(region and not team) with swept(horizon=1)", "not (owner or always) with swept(horizon=1)", "region with swept(horizon=1)"})
-    EXPECT_EQ(complaint_about(text, settings), std::nullopt) << text;
-}
-
 }  // namespace
 }  // namespace rink::im
