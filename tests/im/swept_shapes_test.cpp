@@ -82,7 +82,9 @@ int play_flights(const std::string& expression, const Relevant& rule, const Filt
           if (!rule(observer, body)) continue;
           ++together;
           if (!known.contains({subscriber, entity}))
-            return ADD_FAILURE() << expression << ": seed " << seed << ", match " << match << ", " << ahead << " s after it subscriber " << subscriber << " is with entity " << entity << ", which was not let through", together;
+            return ADD_FAILURE() << expression << ": seed " << seed
+                                  << ", match " << match << ", " << ahead
+                                  << " s after it subscriber " << subscriber << " is with entity " << entity << ", which was not let through", together;
         }
   }
   return together;

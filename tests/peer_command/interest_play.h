@@ -100,8 +100,9 @@ class InterestPlay {
     std::uint64_t missing = 0, extra = 0;
     std::string wrong;                                  ///< the first ones
   };
-  /// By the true states at the windows' ends: a body that `relevant` is at two ends of windows one after the other must be seen at the second, and one that is not at five may not be: in some runs, by the timing of their
-  /// threads, a body that leaves a view is seen at the fourth end after it was there last.
+  /// By the true states at the windows' ends: a body that `relevant` is at two ends of windows one after the other must be seen at the second, and one that is not at five
+  /// may not be: in some runs, by the timing of their threads,
+  /// a body that leaves a view is seen at the fourth end after it was there last.
   Recount recount(const im::Relevant& relevant, const im::Relevant& stays) const {
     std::vector<im::Role> roles(places_.at(0).size());
     for (const Entity& entity : game_.start().entities()) roles[entity.id.index].is_always_relevant = RelevantKinds::of_bits(terms_.interest.always).has(entity.kind);
