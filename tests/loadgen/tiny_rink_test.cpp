@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "areas.h"
@@ -280,7 +281,7 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
   const auto words_of = [&](const char* key, const auto& read) {
     const std::string file = (folder_ / "other.jsonl").string();
     game::EvidenceWriter writer(file);
-    writer.line({{key, 2}});
+    writer.line(nlohmann::ordered_json{{key, 2}});
     writer.finish();
     try {
       read(file);
