@@ -61,14 +61,14 @@ void Peer::consider(std::uint32_t body, const BodyState& state) {
   ghosts_.push_back(body);
 }
 
-template <class Message>
-bool Peer::is_sound(PeerNumber from, const Message& message) {
-  const std::string fault = validator_ ? validator_->fault_of(message) : std::string();
+template <class Message, class... Instants>
+bool Peer::is_sound(PeerNumber from, const Message& message, Instants... instants) {
+  const std::string fault = validator_ ? validator_->fault_of(message, instants...) : std::string();
   return fault.empty() || accuse(from, fault);
 }
 
 void Peer::hear(PeerNumber from, Claims claims) {
-  if (is_sound(from, claims)) claims_[from] = std::move(claims);
+  if (is_sound(from, claims, end_)) claims_[from] = std::move(claims);
 }
 
 void Peer::hear(PeerNumber from, const Verdict& verdict) {
@@ -76,7 +76,7 @@ void Peer::hear(PeerNumber from, const Verdict& verdict) {
 }
 
 void Peer::hear(PeerNumber from, Arrivals arrivals) {
-  if (is_sound(from, arrivals)) arrivals_[from] = std::move(arrivals);
+  if (is_sound(from, arrivals, told_)) arrivals_[from] = std::move(arrivals);
 }
 
 void Peer::begin(double until) {
@@ -148,6 +148,7 @@ Outcome Peer::conclude() {
     if (needs_whole) halos_[peer] = infinity;
     else if (is_final || is_repeating_[peer]) halos_[peer] = verdicts_[peer].halo;
   }
+  told_ = is_final && !needs_whole ? end_ : start_;
   if (is_final && !needs_whole) return Outcome::final;
   counters_.repeats += is_repeating_[number_];
   ++attempts_;

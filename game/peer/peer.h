@@ -201,6 +201,7 @@ class Peer {
   double needed_halo() const;
   bool hears_truth();
   bool trusts_ghosts();
+  void blame(bool doubts_ghosts);
   bool accuse(PeerNumber peer, const std::string& of);
 
   // peer_players.cpp
@@ -214,8 +215,8 @@ class Peer {
   void make_room(PeerNumber peer_count);
   void note_changed();
 
-  template <class Message>
-  bool is_sound(PeerNumber from, const Message& message);
+  template <class Message, class... Instants>
+  bool is_sound(PeerNumber from, const Message& message, Instants... instants);
 
   physics::Portion portion_;
   std::optional<Validator> validator_;
@@ -224,6 +225,7 @@ class Peer {
   double halo_max_;
   std::uint32_t window_ = 0;
   double start_ = 0.0, end_ = 0.0;  // of the window
+  double told_ = 0.0;               // of the states that are handed over next
   double usual_halo_, halo_min_, extent_max_ = 0.0;
   double margin_ = -1.0;            // a place deeper in a zone is at home: no other peer's halo reaches a body there
   std::vector<Box> interiors_;      // of the own zones

@@ -20,6 +20,9 @@ constexpr double time_margin = 2e-9;
 /// Of halos that turn out too narrow, and of all others, bit by bit.
 constexpr double widening = 1.25, narrowing = 1.0 - 2e-4;
 constexpr std::uint32_t attempts_max = 40;
+/// By then everybody's halo holds the whole field if need be, and honest runs of the same states agree. Whoever still
+/// doubts a ghost blames its owner; whoever trusts all of them waits a little longer, then blames who does not accept.
+constexpr std::uint32_t attempts_before_blame = attempts_max + 64, attempts_before_blaming_doubt = attempts_before_blame + 8;
 /// So many need 8 events at one instant each before they would be taken for endless together; telling when they came would cost more.
 constexpr PeerNumber few_peers = 8;
 
@@ -136,6 +139,17 @@ bool Peer::accuse(PeerNumber peer, const std::string& of) {
   return false;
 }
 
+/// Or else a lie that could be true, and was believed, would have the window repeated for ever.
+void Peer::blame(bool doubts_ghosts) {
+  const auto doubted = std::find_if(doubts_.begin(), doubts_.end(), [](double doubt) { return doubt < infinity; });
+  if (doubts_ghosts && doubted != doubts_.end()) {
+    const std::uint32_t body = ghosts_[static_cast<std::size_t>(doubted - doubts_.begin())];
+    accuse(owners_[body], "claims what cannot be agreed with of body " + std::to_string(body));
+  }
+  for (PeerNumber peer = 0; peer < verdicts_.size() && attempts_ >= attempts_before_blaming_doubt; ++peer)
+    if (peer != number_ && is_present_[peer] && !verdicts_[peer].accepts) accuse(peer, "accepts no run of window " + std::to_string(window_));
+}
+
 /// Whether claims speak of the bodies that they should.
 bool Peer::hears_truth() {
   std::vector<std::uint32_t> counts(claims_.size(), 0);
@@ -159,6 +173,7 @@ const Verdict& Peer::judge() {
   const bool is_true = hears_truth();
   if (is_true) take_presses();
   const bool is_trusted = is_true && trusts_ghosts();
+  if (attempts_ >= attempts_before_blame) blame(is_true && !is_trusted);
   const std::uint64_t at_once_max = std::max(portion_.journal().at_once_max, physics::most_at_once(portion_.journal().times));
   verdict = {window_, is_trusted && needed <= halo, 0.0f, at_once_max, portion_.journal().was_hopeless, own_events_, wishes_to_leave_, parts_of_events(), goals(), admission_};
   if (verdict.accepts) {

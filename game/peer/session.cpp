@@ -85,7 +85,23 @@ Message Session::heard(PeerNumber from) {
   }
 }
 
-template FaceOffWord Session::heard<FaceOffWord>(PeerNumber from);
+/// Likewise, and held against the scene: the states in it are those of that instant [s]. What goes to the own peer, it looks at itself.
+template <class Message>
+Message Session::checked(PeerNumber from, double now) {
+  Message message = heard<Message>(from);
+  if (const std::string fault = validator_.fault_of(message, now); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  return message;
+}
+
+/// Nothing is played any more from the bodies in them, so their contacts are left out.
+Arrivals Session::last_words(PeerNumber from) {
+  Arrivals part = heard<Arrivals>(from);
+  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  return part;
+}
+
+template FaceOffWord Session::checked<FaceOffWord>(PeerNumber from, double now);
+template Arrivals Session::checked<Arrivals>(PeerNumber from, double now);
 
 /// What `make(to)` makes goes to all members, and what they made is heard.
 template <class Make>
@@ -208,8 +224,7 @@ void Session::mirror(const State& next, PartChange change) {
   }
   for (const PeerNumber from : next.members) {
     if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
-    auto kept = heard<PartChange>(from);
-    if (const std::string fault = validator_.fault_of(kept); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+    auto kept = checked<PartChange>(from, next.time);
     if (kept.step != next.step || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
   }
 }
@@ -250,7 +265,7 @@ std::vector<Arrivals> Session::end() {
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(own));
       for (const PeerNumber from : now_.members)
-        if (from != settings_.number) parts[from] = heard<Arrivals>(from);
+        if (from != settings_.number) parts[from] = last_words(from);
       parts[settings_.number] = std::move(own);
       parts_ = std::move(parts);
       // Nobody goes before all have all.

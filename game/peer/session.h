@@ -119,6 +119,9 @@ class Session {
   void exchange(Make&& make, const std::function<void()>& meanwhile = {});
   template <class Message>
   Message heard(PeerNumber from);
+  template <class Message>
+  Message checked(PeerNumber from, double now);
+  Arrivals last_words(PeerNumber from);
   [[noreturn]] void give_up(PeerNumber peer, const std::string& what) const;
   void play_window();
   void play_stretch();

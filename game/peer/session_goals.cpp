@@ -62,8 +62,7 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
   std::uint64_t taken = word.taken;
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number) continue;
-    const auto told = heard<FaceOffWord>(from);
-    if (const std::string fault = validator_.fault_of(told); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+    const auto told = checked<FaceOffWord>(from, peer_->now());
     if (told.puck != word.puck || (!told.body.empty() && told.body.front().number != word.puck))
       give_up(from, "peer " + std::to_string(from) + " tells of puck " + std::to_string(told.puck) + " where puck " + std::to_string(word.puck) + " is due");
     taken |= told.taken;

@@ -33,12 +33,12 @@ void Session::note_gone(PeerNumber peer, const std::string& what, bool has_finis
 bool Session::hears_loss(PeerNumber from, std::span<const std::uint8_t> bytes) {
   Loss loss;
   if (!settings_.is_mirrored || !read(bytes, loss)) give_up(from, "peer " + std::to_string(from) + " sent what is no message");
+  if (const std::string fault = validator_.fault_of(loss); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
   if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end()) halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
   const std::vector<PeerNumber> told = loss.gone, finished = loss.finished;
   losses_[from] = std::move(loss);
   bool is_news = false;
   for (const PeerNumber peer : told) {
-    if (peer >= numbers_max) give_up(from, "peer " + std::to_string(from) + " tells of the loss of peer " + std::to_string(peer) + ", who never was");
     const bool is_new = !is_gone(peer);
     is_news = is_news || is_new;
     if (is_new) note_gone(peer, "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
@@ -167,7 +167,7 @@ void Session::rebuild() {
   }
   shares[settings_.number] = share(parts, division_, settings_.number);
   for (const PeerNumber from : next.members)
-    if (from != settings_.number) shares[from] = heard<Arrivals>(from);
+    if (from != settings_.number) shares[from] = checked<Arrivals>(from, next.time);
   enter(next, shares);
   PartChange change = peer_->change(true);
   for (const PeerNumber peer : parts) {
@@ -208,7 +208,7 @@ void Session::press_again() {
   }
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number) continue;
-    const auto message = heard<Arrivals>(from);
+    const auto message = checked<Arrivals>(from, now_.time);
     seen.insert(seen.end(), message.glimpses.begin(), message.glimpses.end());
   }
   for (Sent& sent : sent_) {

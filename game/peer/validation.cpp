@@ -3,13 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "game/peer/session.h"
 
 namespace rink::peer {
 
 namespace {
 
 constexpr double speed_max = 299'792'458.0;  ///< m/s: nothing in a rink outruns light
+/// Far above what a scene file may ask for (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no window makes more of it
+/// than a double holds.
+constexpr double acceleration_max = 1e6, drag_max = 1e6, spin_max = 1e12, force_max = 1e18;
 
+/// s: so much later than its window an event may come by rounding; far more than it ever does. A contact that should have
+/// ended earlier ends when it is looked at, so there is no such bound below.
+constexpr double time_margin = 1e-6;
+
+bool is_within(double value, double most) { return std::abs(value) <= most; }  // no number is not
+bool is_within(const Vector2& v, double most) { return is_within(v.x(), most) && is_within(v.y(), most); }
 bool is_number(const Vector2& v) { return v.allFinite(); }
 
 std::string named(const char* what, std::uint32_t number, const char* fault) { return std::string(what) + " " + std::to_string(number) + " " + fault; }
@@ -30,7 +42,7 @@ BodyConstants BodyConstants::of(const BodyState& state) {
 }
 
 Validator::Validator(const physics::World& world)
-    : reach_(2.0 * (world.spec().field.length + world.spec().field.width)), material_count_(world.spec().restitution.material_count()) {
+    : puck_drag_(world.spec().puck_drag), reach_(2.0 * (world.spec().field.length + world.spec().field.width)), material_count_(world.spec().restitution.material_count()) {
   for (std::uint32_t body = 0; body < world.body_count(); ++body) {
     const BodyConstants own = BodyConstants::of(physics::Portion::state_in(world, body));
     const auto known = std::find(constants_.begin(), constants_.end(), own);
@@ -41,24 +53,34 @@ Validator::Validator(const physics::World& world)
 
 bool Validator::is_place(const Vector2& place) const { return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_; }
 
-std::string Validator::fault_of(const Arrivals::Body& body) const {
+/// Whether the last event is not yet to come, and the flight since then has stayed in reach.
+bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
+  if (!is_place(motion.position) || !(motion.velocity.norm() <= speed_max) || !(motion.time >= 0.0 && motion.time <= now)) return false;
+  const physics::Motion then = motion.at(now);
+  return is_place(then.position) && then.velocity.norm() <= speed_max;
+}
+
+std::string Validator::fault_of(const Arrivals::Body& body, double now) const {
   const BodyState& s = body.state;
   if (!is_body(body.number)) return named("hands over body", body.number, "which does not exist");
   if (BodyConstants::of(s) != constants_[constants_of_[body.number]]) return named("hands over body", body.number, "with a radius, mass, material or kind that the scene does not give it");
-  const bool is_somewhere = is_place({s.flight.x, s.flight.y}) && std::hypot(s.flight.vx, s.flight.vy) <= speed_max && std::isfinite(s.flight.time);
-  if (!is_somewhere) return named("hands over body", body.number, "at no place, speed or time");
-  const bool is_driven = is_number(s.thrust) && is_number(s.acceleration) && is_number(s.drag) && s.drag.minCoeff() >= 0.0 && is_number(s.slowing) && std::isfinite(s.spin);
-  if (!is_driven) return named("hands over body", body.number, "with an acceleration, drag or spin that is no number");
-  const bool is_counted = std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) && std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
-  if (!is_counted) return named("hands over body", body.number, "with times that are no numbers");
+  const bool is_driven = is_within(s.thrust, acceleration_max) && is_within(s.acceleration, acceleration_max) && is_within(s.slowing, acceleration_max) &&
+                         s.drag.minCoeff() >= 0.0 && is_within(s.drag, drag_max) && is_within(s.spin, spin_max);
+  if (!is_driven) return named("hands over body", body.number, "with an acceleration, drag or spin that is no number or too large");
+  const bool is_counted = s.impacts_begin <= now && s.last_hop <= now && s.repeats_instant <= now && std::isfinite(s.impacts_begin) && std::isfinite(s.last_hop) &&
+                          std::isfinite(s.repeats_instant) && !std::isnan(s.rest_time);
+  if (!is_counted) return named("hands over body", body.number, "with times that are no numbers or still to come");
   if (!physics::Portion::is_possible(s, static_cast<std::uint32_t>(constants_of_.size()))) return named("hands over body", body.number, "in a state that does not exist");
-  return {};
+  physics::Motion motion = s.motion();
+  // Who is out of play stays where it is.
+  if (physics::Portion::is_out_of_play(s)) motion.velocity = motion.acceleration = {0.0, 0.0};
+  return is_on_its_way(motion, now) && s.motion().velocity.norm() <= speed_max ? std::string() : named("hands over body", body.number, "at no place, speed or time");
 }
 
-std::string Validator::fault_of(const Flown& flown) const {
+std::string Validator::fault_of(const Flown& flown, double now) const {
   if (!is_body(flown.number)) return named("hands over body", flown.number, "which does not exist");
-  if (is_place(flown.position) && flown.velocity.norm() <= speed_max && std::isfinite(flown.time)) return {};
-  return named("hands over body", flown.number, "at no place, speed or time");
+  const physics::Motion motion{.time = flown.time, .position = flown.position, .velocity = flown.velocity, .drag = Vector2::Constant(puck_drag_)};
+  return is_on_its_way(motion, now) ? std::string() : named("hands over body", flown.number, "at no place, speed or time");
 }
 
 std::string Validator::fault_of(const Hold& hold) const {
@@ -66,13 +88,13 @@ std::string Validator::fault_of(const Hold& hold) const {
   const auto is_moving = [&](physics::Partner p) { return is_body(p) && !is_of_kind(p, physics::BodyKind::post); };
   if (!is_partner(hold.low) || !is_partner(hold.high) || hold.low == hold.high) return "hands over a rest contact of body " + std::to_string(hold.low) + " with " + std::to_string(hold.high) + ", which cannot be";
   if (!is_moving(hold.low) && !is_moving(hold.high)) return "hands over a rest contact of two that cannot move";
-  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) && std::isfinite(hold.force) && std::isfinite(hold.age.time);
+  const bool has_times = !std::isnan(hold.pull_time) && !std::isnan(hold.turn_time) && is_within(hold.force, force_max) && std::isfinite(hold.age.time);
   return has_times ? std::string() : "hands over a rest contact whose times or force are no numbers";
 }
 
 std::string Validator::fault_of(const Key& key) const {
-  if (is_of_kind(key.bat, physics::BodyKind::bat) && is_number(key.thrust) && std::isfinite(key.time)) return {};
-  return named("hands over a key of bat", key.bat, "which is none, or whose time or thrust is no number");
+  if (is_of_kind(key.bat, physics::BodyKind::bat) && is_within(key.thrust, acceleration_max) && std::isfinite(key.time)) return {};
+  return named("hands over a key of bat", key.bat, "which is none, or whose time or thrust is no number or too large");
 }
 
 std::string Validator::fault_of(const Glimpse& glimpse) const {
@@ -82,28 +104,28 @@ std::string Validator::fault_of(const Glimpse& glimpse) const {
   return is_sound ? std::string() : named("shows bat", glimpse.bat, "as it cannot be");
 }
 
-template <class Item>
-std::string Validator::first_fault(const std::vector<Item>& list) const {
+template <class Item, class... Instant>
+std::string Validator::first_fault(const std::vector<Item>& list, Instant... now) const {
   for (const Item& item : list)
-    if (std::string fault = fault_of(item); !fault.empty()) return fault;
+    if (std::string fault = fault_of(item, now...); !fault.empty()) return fault;
   return {};
 }
 
-std::string Validator::fault_of(const Arrivals& message) const {
-  for (const std::string& fault : {first_fault(message.bodies), first_fault(message.flown), first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
+std::string Validator::fault_of(const Arrivals& message, double now) const {
+  for (const std::string& fault : {first_fault(message.bodies, now), first_fault(message.flown, now), first_fault(message.holds), first_fault(message.keys), first_fault(message.glimpses)})
     if (!fault.empty()) return fault;
   for (const Arrivals::Body& body : message.bodies)
     if (!has_its_holds(body, message.holds)) return named("hands over body", body.number, "in a rest contact that it does not hand over");
   return {};
 }
 
-std::string Validator::fault_of(const Claims& message) const {
+std::string Validator::fault_of(const Claims& message, double end) const {
   for (const Claims::Body& body : message.bodies)
     if (!is_body(body.number)) return named("claims body", body.number, "which does not exist");
   for (const ClaimedFlight& flight : message.flights)
-    if (!std::isfinite(flight.begin) || !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y)) return "claims a flight through no place or at no time";
+    if (!(flight.begin >= 0.0 && flight.begin <= end + time_margin) || !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y)) return "claims a flight through no place or at no time";
   for (const Press& press : message.presses)
-    if (!is_of_kind(press.bat, physics::BodyKind::bat)) return named("presses a key of bat", press.bat, "which is none");
+    if (!is_of_kind(press.bat, physics::BodyKind::bat) || !is_within(press.thrust, acceleration_max)) return named("presses a key of bat", press.bat, "which is none, or with a thrust that no bat has");
   return {};
 }
 
@@ -113,17 +135,29 @@ std::string Validator::fault_of(const Verdict& message) const {
   return {};
 }
 
-std::string Validator::fault_of(const PartChange& message) const {
-  for (const std::string& fault : {first_fault(message.bodies), first_fault(message.flown), first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
+std::string Validator::fault_of(const PartChange& message, double now) const {
+  for (const std::string& fault : {first_fault(message.bodies, now), first_fault(message.flown, now), first_fault(message.holds), first_fault(message.keys), first_fault(message.log)})
     if (!fault.empty()) return fault;
   for (const std::uint32_t body : message.gone)
     if (!is_body(body)) return named("gives away body", body, "which does not exist");
-  return std::isfinite(message.time) ? std::string() : "tells of its part at no time";
+  for (const Arrivals::Body& body : message.bodies)
+    if (!has_its_holds(body, message.holds)) return named("tells of body", body.number, "in a rest contact of which it does not tell");
+  return message.time == now ? std::string() : "tells of its part at another time";
 }
 
-std::string Validator::fault_of(const FaceOffWord& message) const {
+std::string Validator::fault_of(const FaceOffWord& message, double now) const {
   if (!is_of_kind(message.puck, physics::BodyKind::puck)) return named("tells of puck", message.puck, "which is none");
-  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once") : first_fault(message.body);
+  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once") : first_fault(message.body, now);
+}
+
+std::string Validator::fault_of(const std::vector<Key>& log) const { return first_fault(log); }
+
+std::string Validator::fault_of(const Loss& message) const {
+  for (const std::vector<PeerNumber>* peers : {&message.gone, &message.finished}) {
+    const bool is_list = std::adjacent_find(peers->begin(), peers->end(), std::greater_equal<>()) == peers->end();
+    if (!is_list || (!peers->empty() && peers->back() >= numbers_max)) return "tells of the loss of peers who never were";
+  }
+  return {};
 }
 
 }  // namespace rink::peer

@@ -11,6 +11,8 @@
 
 namespace rink::peer {
 
+struct Loss;
+
 /// What nothing that happens in a game changes of a body.
 struct BodyConstants {
   double radius = 0.0, mass = 1.0, inverse_mass = 1.0;  ///< m, kg, 1/kg
@@ -29,25 +31,30 @@ class Validator {
  public:
   explicit Validator(const physics::World& world);
 
-  /// What is wrong with the message, as in "hands over body 7 at no place"; empty if nothing is.
-  std::string fault_of(const Arrivals& message) const;
-  std::string fault_of(const Claims& message) const;
+  /// What is wrong with the message, as in "hands over body 7 at no place"; empty if nothing is. `now` [s] is the
+  /// instant of the states in it, `end` [s] that of the window of which it tells.
+  std::string fault_of(const Arrivals& message, double now) const;
+  std::string fault_of(const Claims& message, double end) const;
   std::string fault_of(const Verdict& message) const;
-  std::string fault_of(const PartChange& message) const;
-  std::string fault_of(const FaceOffWord& message) const;
+  std::string fault_of(const PartChange& message, double now) const;
+  std::string fault_of(const FaceOffWord& message, double now) const;
+  std::string fault_of(const Loss& message) const;
+  std::string fault_of(const std::vector<Key>& log) const;
 
  private:
-  std::string fault_of(const Arrivals::Body& body) const;
-  std::string fault_of(const Flown& flown) const;
+  std::string fault_of(const Arrivals::Body& body, double now) const;
+  std::string fault_of(const Flown& flown, double now) const;
   std::string fault_of(const Hold& hold) const;
   std::string fault_of(const Key& key) const;
   std::string fault_of(const Glimpse& glimpse) const;
-  template <class Item>
-  std::string first_fault(const std::vector<Item>& list) const;
+  template <class Item, class... Instant>
+  std::string first_fault(const std::vector<Item>& list, Instant... now) const;
+  bool is_on_its_way(const physics::Motion& motion, double now) const;
   bool is_body(std::uint32_t number) const { return number < constants_of_.size(); }
   bool is_of_kind(std::uint32_t number, physics::BodyKind kind) const { return is_body(number) && constants_[constants_of_[number]].kind == kind; }
   bool is_place(const Vector2& place) const;
 
+  double puck_drag_ = 0.0;                    ///< 1/s
   double reach_ = 0.0;                        ///< no coordinate lies farther from the field's corner [m]
   std::size_t material_count_ = 0;
   std::vector<BodyConstants> constants_;      ///< each once: a scene has few

@@ -69,6 +69,8 @@ bool Portion::is_possible(const BodyState& state, std::uint32_t body_count) {
   return (state.flags & ~known) == 0 && state.mouth <= Engine::right_mouth && (!is_jammed || state.jam < body_count);
 }
 
+bool Portion::is_out_of_play(const BodyState& state) { return (state.flags & Engine::gone) != 0; }
+
 bool Portion::is_held_along(const BodyState& state, int axis) { return (state.flags & (axis == 0 ? Engine::held_x : Engine::held_y)) != 0; }
 
 /// All of the body's state, but not where it is listed.

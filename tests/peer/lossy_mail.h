@@ -1,6 +1,7 @@
 // Mail between peers in threads that die in the middle of a word, are cut off from each other, or come later.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -32,6 +33,8 @@ struct Ticket {
 class LossyOffice {
  public:
   static constexpr End ends_max = 32;
+  /// With one whose word is due; changed before anybody waits.
+  std::chrono::milliseconds patience = std::chrono::hours(1);
   explicit LossyOffice(PeerNumber peer_count)
       : lines_(ends_max * ends_max), is_dead_(ends_max), has_finished_(ends_max), is_connected_(ends_max), tickets_(ends_max), callers_(ends_max), begin_count_(peer_count), end_count_(peer_count) {}
 
@@ -83,7 +86,7 @@ class LossyOffice {
         return bytes;
       }
       if (has_finished_[from]) throw PeerGone(from_number, true, "peer " + std::to_string(from_number) + " has left");
-      has_come_.wait(lock);
+      if (has_come_.wait_for(lock, patience) == std::cv_status::timeout) throw PeerGone(from_number, false, "peer " + std::to_string(from_number) + " has said nothing");
     }
   }
 
@@ -151,8 +154,11 @@ class LossyMail final : public Mail {
   /// With every word that is said or awaited, `before_word` is called with its number; it may throw. `others`: those who are there, of whom the `counted` are no candidates.
   LossyMail(LossyOffice& office, End own, std::map<PeerNumber, End> others, std::map<PeerNumber, End> counted, std::function<void(std::uint64_t)> before_word)
       : office_(office), own_(own), ends_(std::move(others)), counted_(std::move(counted)), before_word_(std::move(before_word)) {}
+  /// What is said may be changed on its way.
+  std::function<void(std::vector<std::uint8_t>&)> on_the_way = [](std::vector<std::uint8_t>&) {};
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
     before_word_(++words_);
+    on_the_way(bytes);
     office_.send(own_, ends_.at(to), std::move(bytes));
   }
   std::vector<std::uint8_t> receive(PeerNumber from) override {

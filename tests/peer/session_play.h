@@ -31,6 +31,8 @@ class Play {
 
   /// Told the end of the peer and its word.
   std::function<void(End, std::uint64_t)> before_word = [](End, std::uint64_t) {};
+  /// Told what the peer of that end says, before it goes out, to be changed.
+  std::function<void(End, std::vector<std::uint8_t>&)> on_the_way = [](End, std::vector<std::uint8_t>&) {};
   /// Told before each advance.
   std::function<void(Session&, End)> before_window = [](Session&, End) {};
   bool is_live = false;
@@ -118,6 +120,7 @@ class Play {
       settings.players.push_back({.peer = peer, .first_bat = first, .bat_count = seated * (peer + 1) / peer_count_ - first, .puck_count = 2});
     }
     settings.seats_of = [this](const Player& player) {
+      if (std::uint64_t{player.first_bat} + player.bat_count > bats_.size()) throw ProtocolError("bats that are not there");
       std::vector<Seat> seats;
       for (std::uint32_t k = player.first_bat; k < player.first_bat + player.bat_count; ++k)
         seats.push_back({.bat = bats_[k], .peer = player.peer, .period = 0.02, .phase = 0.001 * bats_[k], .puck_count = player.puck_count});
@@ -131,7 +134,14 @@ class Play {
     for (PeerNumber peer = 0; peer < peer_count_; ++peer)
       if (peer != number) others[peer] = peer;
     LossyMail mail(office_, number, others, others, [&](std::uint64_t word) { before_word(number, word); });
-    live(number, [&] { return std::make_unique<Session>(*start_, cuts_, settings(number), mail); });
+    mail.on_the_way = [&](std::vector<std::uint8_t>& bytes) { on_the_way(number, bytes); };
+    try {
+      live(number, [&] { return std::make_unique<Session>(*start_, cuts_, settings(number), mail); });
+    } catch (const SentAway& sent) {  // by a liar: nobody else sends away who began
+      office_.kill(number);
+      fates[number] = Fate::halted;
+      messages[number] = sent.what();
+    }
   }
 
   void join(End via, std::uint32_t bat_count) {
@@ -184,6 +194,9 @@ class Play {
     } catch (const Halt& halt) {
       fates[own] = Fate::halted;
       messages[own] = halt.what();
+    } catch (const ProtocolError& error) {
+      fates[own] = Fate::halted;
+      messages[own] = error.what();
     }
     if (session) counters[own] = session->counters();
     office_.finish(own);

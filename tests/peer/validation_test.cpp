@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/peer/session.h"
 #include "game/peer/validation.h"
 #include "tests/peer/shared_scenes.h"
 
@@ -19,6 +20,7 @@ using testing::StartsWith;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t nobody = 4'000'000'000;
+constexpr double now = 0.2;  // s: how far the scene has come
 
 /// A scene with bats and pucks in the middle of a game, and what an honest peer says of it.
 struct Honest {
@@ -28,7 +30,7 @@ struct Honest {
   Arrivals arrivals{.window = 3, .bodies = {}, .holds = {}, .keys = {}, .glimpses = {}};
 
   Honest() {
-    scene.world.advance(0.2);
+    scene.world.advance(now);
     for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) {
       if (scene.world.kind({body}) == physics::BodyKind::bat) bat = body;
       if (scene.world.kind({body}) == physics::BodyKind::puck) puck = body;
@@ -51,12 +53,12 @@ struct Honest {
 TEST(Validator, FindsNoFaultInWhatIsHonest) {
   Honest honest;
   ASSERT_NE(honest.bat, honest.puck);
-  EXPECT_EQ(honest.validator.fault_of(honest.arrivals), "");
-  EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}}, .presses = {{honest.bat, {1.0, 0.0}, 1}}}), "");
+  EXPECT_EQ(honest.validator.fault_of(honest.arrivals, now), "");
+  EXPECT_EQ(honest.validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {{0.1, 7, 0.0f, 0.0f, 1.0f, 1.0f}}, .presses = {{honest.bat, {1.0, 0.0}, 1}}}, now), "");
   EXPECT_EQ(honest.validator.fault_of(Verdict{.window = 1, .goals = {{0.1, honest.puck, true}}}), "");
-  EXPECT_EQ(honest.validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}}), "");
+  EXPECT_EQ(honest.validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 3, .body = {honest.arrivals.bodies[honest.puck]}}, now), "");
   const PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = honest.arrivals.bodies, .gone = {honest.puck}, .holds = honest.arrivals.holds, .keys = honest.arrivals.keys, .log = {}};
-  EXPECT_EQ(honest.validator.fault_of(part), "");
+  EXPECT_EQ(honest.validator.fault_of(part, now), "");
 }
 
 using Lie = std::function<void(Honest&)>;
@@ -72,25 +74,25 @@ std::vector<Lie> lies_about_numbers() {
   each([](BodyState& s) -> double& { return s.flight.y; }, {nan, inf, -inf, 1e300, -1e9});
   each([](BodyState& s) -> double& { return s.flight.vx; }, {nan, inf, -inf, 1e300});
   each([](BodyState& s) -> double& { return s.flight.vy; }, {nan, inf, -inf, 1e300});
-  each([](BodyState& s) -> double& { return s.flight.time; }, {nan, inf, -inf});
+  each([](BodyState& s) -> double& { return s.flight.time; }, {nan, inf, -inf, -1.0, now + 1e-9, 1e300});
   each([](BodyState& s) -> double& { return s.flight.radius; }, {nan, inf, -1.0, 0.0, 10.0});
   each([](BodyState& s) -> double& { return s.mass; }, {nan, inf, 0.0, -1.0, 77.0});
   each([](BodyState& s) -> double& { return s.inverse_mass; }, {nan, inf, -1.0, 77.0});
   each([](BodyState& s) -> double& { return s.half_extent.x(); }, {nan, inf, -1.0, 77.0});
   each([](BodyState& s) -> double& { return s.half_extent.y(); }, {nan, inf, -1.0, 77.0});
-  each([](BodyState& s) -> double& { return s.thrust.x(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.thrust.y(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.acceleration.x(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.acceleration.y(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.drag.x(); }, {nan, inf, -0.1});
-  each([](BodyState& s) -> double& { return s.drag.y(); }, {nan, inf, -0.1});
-  each([](BodyState& s) -> double& { return s.impacts_begin; }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.last_hop; }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.repeats_instant; }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.thrust.x(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.thrust.y(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.acceleration.x(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.acceleration.y(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.drag.x(); }, {nan, inf, -0.1, 1e300});
+  each([](BodyState& s) -> double& { return s.drag.y(); }, {nan, inf, -0.1, 1e300});
+  each([](BodyState& s) -> double& { return s.impacts_begin; }, {nan, inf, now + 1e-9});
+  each([](BodyState& s) -> double& { return s.last_hop; }, {nan, inf, now + 1e-9});
+  each([](BodyState& s) -> double& { return s.repeats_instant; }, {nan, inf, now + 1e-9});
   each([](BodyState& s) -> double& { return s.rest_time; }, {nan});
-  each([](BodyState& s) -> double& { return s.slowing.x(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.slowing.y(); }, {nan, inf});
-  each([](BodyState& s) -> double& { return s.spin; }, {nan, inf});
+  each([](BodyState& s) -> double& { return s.slowing.x(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.slowing.y(); }, {nan, inf, 1e300, -1e300});
+  each([](BodyState& s) -> double& { return s.spin; }, {nan, inf, 1e300, -1e300});
   return lies;
 }
 
@@ -118,14 +120,20 @@ std::vector<Lie> lies_beside_bodies() {
           [](Honest& honest) { honest.arrivals.holds.back().pull_time = nan; },
           [](Honest& honest) { honest.arrivals.holds.back().turn_time = nan; },
           [](Honest& honest) { honest.arrivals.holds.back().force = nan; },
+          [](Honest& honest) { honest.arrivals.holds.back().force = -1e300; },
           [](Honest& honest) { honest.arrivals.holds.back().age.time = nan; },
           [](Honest& honest) { honest.arrivals.flown[0].number = nobody; },
           [](Honest& honest) { honest.arrivals.flown[0].position.x() = nan; },
           [](Honest& honest) { honest.arrivals.flown[0].velocity.y() = HUGE_VAL; },
           [](Honest& honest) { honest.arrivals.flown[0].time = nan; },
+          [](Honest& honest) { honest.arrivals.flown[0].time = now + 1e-9; },
+          // A fast one that hit nobody for so long is not where it says.
+          [](Honest& honest) { honest.arrivals.flown[0].velocity = {1e6, 0.0}, honest.arrivals.flown[0].time = 0.1; },
+          [](Honest& honest) { honest.state().flight.vx = 1e6, honest.state().flight.time = 0.1; },
           [](Honest& honest) { honest.arrivals.keys[0].bat = nobody; },
           [](Honest& honest) { honest.arrivals.keys[0].bat = honest.puck; },
           [](Honest& honest) { honest.arrivals.keys[0].thrust.x() = nan; },
+          [](Honest& honest) { honest.arrivals.keys[0].thrust.y() = 1e300; },
           [](Honest& honest) { honest.arrivals.keys[0].time = nan; },
           [](Honest& honest) { honest.arrivals.glimpses[0].bat = nobody; },
           [](Honest& honest) { honest.arrivals.glimpses[0].position.x() = nan; },
@@ -139,7 +147,7 @@ void expect_seen(const std::vector<Lie>& lies) {
   for (std::size_t k = 0; k < lies.size(); ++k) {
     Honest honest;
     lies[k](honest);
-    EXPECT_NE(honest.validator.fault_of(honest.arrivals), "") << "lie " << k;
+    EXPECT_NE(honest.validator.fault_of(honest.arrivals, now), "") << "lie " << k;
   }
 }
 
@@ -150,21 +158,40 @@ TEST(Validator, SeesContactsFlightsKeysAndGlimpsesThatCannotBe) { expect_seen(li
 TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   Honest honest;
   const Validator& validator = honest.validator;
-  EXPECT_THAT(validator.fault_of(Claims{.window = 1, .bodies = {{nobody, 0, false}}, .flights = {}, .presses = {}}), HasSubstr("4000000000"));
-  for (const ClaimedFlight& flight : {ClaimedFlight{nan, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, std::nanf(""), 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, 0.0f, 2.0f, 1.0f, 1.0f}})
-    EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {flight}, .presses = {}}), "");
-  for (const std::uint32_t bat : {nobody, honest.puck}) EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{bat, {1.0, 0.0}, 1}}}), "");
+  EXPECT_THAT(validator.fault_of(Claims{.window = 1, .bodies = {{nobody, 0, false}}, .flights = {}, .presses = {}}, now), HasSubstr("4000000000"));
+  for (const ClaimedFlight& flight : {ClaimedFlight{nan, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, std::nanf(""), 0.0f, 1.0f, 1.0f}, ClaimedFlight{0.1, 0, 0.0f, 2.0f, 1.0f, 1.0f},
+                                      ClaimedFlight{now + 0.01, 0, 0.0f, 0.0f, 1.0f, 1.0f}, ClaimedFlight{-1.0, 0, 0.0f, 0.0f, 1.0f, 1.0f}})
+    EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {{honest.puck, 1, true}}, .flights = {flight}, .presses = {}}, now), "");
+  for (const std::uint32_t bat : {nobody, honest.puck}) EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{bat, {1.0, 0.0}, 1}}}, now), "");
+  EXPECT_NE(validator.fault_of(Claims{.window = 1, .bodies = {}, .flights = {}, .presses = {{honest.bat, {1e300, 0.0}, 1}}}, now), "");
   for (const std::uint32_t puck : {nobody, honest.bat}) EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
-  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}), "");
+  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}, now), "");
   Arrivals::Body lie = honest.arrivals.bodies[honest.puck];
   lie.state.flight.vx = nan;
-  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}), "");
+  EXPECT_NE(validator.fault_of(FaceOffWord{.puck = honest.puck, .taken = 0, .body = {lie}}, now), "");
   PartChange part{.step = 1, .time = 0.2, .is_whole = true, .bodies = {lie}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
-  EXPECT_NE(validator.fault_of(part), "");
+  EXPECT_NE(validator.fault_of(part, now), "");
   part.bodies.clear(), part.gone = {nobody};
-  EXPECT_NE(validator.fault_of(part), "");
-  part.gone.clear(), part.time = nan;
-  EXPECT_NE(validator.fault_of(part), "");
+  EXPECT_NE(validator.fault_of(part, now), "");
+  part.gone.clear();
+  for (const double wrong : {nan, now + 0.01}) {
+    part.time = wrong, part.bodies.clear();
+    EXPECT_NE(validator.fault_of(part, now), "");
+  }
+  part.time = now;
+  EXPECT_EQ(validator.fault_of(part, now), "");
+  lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.holds.clear();
+  EXPECT_THAT(validator.fault_of(part, now), HasSubstr("in a rest contact of which it does not tell"));
+  EXPECT_NE(validator.fault_of(std::vector<Key>{{.time = nan, .bat = honest.bat}}), "");
+}
+
+TEST(Validator, SeesLossesThatNobodyTells) {
+  const Honest honest;
+  EXPECT_EQ(honest.validator.fault_of(Loss{.step = 1, .gone = {0, 2}, .finished = {2}}), "");
+  for (const std::vector<PeerNumber>& gone : {std::vector<PeerNumber>{2, 0}, {1, 1}, {numbers_max}}) {
+    EXPECT_NE(honest.validator.fault_of(Loss{.step = 1, .gone = gone}), "");
+    EXPECT_NE(honest.validator.fault_of(Loss{.step = 1, .gone = {}, .finished = gone}), "");
+  }
 }
 
 /// Two halves of a gas up to where the right one's peer hands over what is near the border.
