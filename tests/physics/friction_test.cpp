@@ -329,5 +329,16 @@ TEST(SlidingMatch, AdvancesUnderRandomKeysWhateverTheRestitution) {
   }
 }
 
+TEST(Motion, OfWhomFrictionHasStoppedIsThatOfOneAtRestForEver) {
+  World world(rough_rink(10, 10, 0.5));
+  const Motion sliding_on = world.motion(world.add(sliding(1, 1, 0.6, 0.8)));
+  EXPECT_NEAR(sliding_on.rest_time, 2.0, 1e-15);
+  const Motion stopped = sliding_on.at(2.5), later = stopped.at(7.0);
+  EXPECT_NEAR((stopped.position - Vector2(1.6, 1.8)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(later.position, stopped.position);
+  EXPECT_EQ(later.velocity, Vector2(0.0, 0.0));
+  EXPECT_EQ(stopped.acceleration, Vector2(0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace rink::physics::test

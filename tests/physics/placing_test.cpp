@@ -96,6 +96,17 @@ TEST(PlacedPuck, BringsItsEnergyAndHadTakenItAway) {
   EXPECT_NEAR(scene.world.kinetic_energy(), 0.5 * 0.5 * 25.0, 1e-14);
 }
 
+/// What it had when it left, in its spin too, went with it.
+TEST(PlacedPuck, BringsNothingOfTheSpinThatItLeftWith) {
+  WorldSpec spec = field_with_goals();
+  spec.accounts_energy = true;
+  spec.surface_friction = SurfaceFriction{PairTable(1, 0.5), RestitutionTable(1, 0.5)};
+  AfterAGoal scene(spec);
+  scene.world.place(scene.puck, {2.0, 1.0}, {3.0, 4.0});
+  EXPECT_NEAR(scene.world.kinetic_energy(), 0.5 * 0.5 * 25.0, 1e-14);
+  EXPECT_NEAR(scene.world.energy_introduced() + scene.world.work_of_thrust() - scene.world.dissipated(), scene.world.kinetic_energy(), 1e-14);
+}
+
 /// A field's length less a radius, and the length that a radius makes with that place, are rounded
 /// twice: some places are free, for the puck ends with the field, and lie in the mouth, for its centre
 /// is nearer than its radius. There the edge of the goal stops a puck that goes along the goal line.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 
@@ -147,6 +148,25 @@ TEST(Portion, CountsWhatAnotherWorldMayCountAtOneInstant) {
   EXPECT_EQ(most_at_once({}), 0u);
   EXPECT_EQ(most_at_once(std::vector<double>{0.1, 0.2, 0.2 + 1e-12, 0.3}), 1u);
   EXPECT_EQ(most_at_once(std::vector<double>(70, 5.0)), 70u);
+}
+
+TEST(Portion, KeepsJamsThatDoNotTouchApart) {
+  // A bat jams a puck between two posts, twice, 2 m from each other.
+  World world(rink_of(4.0, 4.0, 0.5, 0.0, 1.0));
+  for (const double y : {1.0, 3.0}) {
+    for (const double side : {-0.1, 0.1}) world.add(PostSpec{.position = {2.0, y + side}, .radius = 0.0625});
+    world.add(PuckSpec{.position = {1.8, y}, .radius = 0.0625});
+    world.set_thrust(world.add(BatSpec{.position = {1.5, y}, .half_extent = {0.0625, 0.25}}), {6.0, 0.0});
+  }
+  world.advance(5.0);
+  ASSERT_GT(world.counters().freezes, 1u);
+  Portion portion(world.spec(), world.body_count());
+  put_all(portion, world);
+  for (const std::uint32_t first : {0u, 4u}) {
+    std::vector<std::uint32_t> group = portion.group_of(first + 2);
+    std::sort(group.begin(), group.end());
+    EXPECT_EQ(group, (std::vector<std::uint32_t>{first + 2, first + 3}));
+  }
 }
 
 }  // namespace

@@ -244,5 +244,21 @@ TEST(RestContact, OfTwoPucksEndsAtTheHitThatMovesOneOfThemSideways) {
   EXPECT_NEAR(world.velocity(at_wall).y(), -0.75, 1e-13);  // (1 + e)/2 of the speed
 }
 
+TEST(RestContact, EndsForWhoeverStaysWhenTheOtherOneIsTakenOut) {
+  for (int axis = 0; axis < 2; ++axis) {
+    BatAndPuck scene(rink_of(4, 4, 0.5), axis, 0.0, {0.0, 0.0}, {0.0, 0.0});
+    World& world = scene.world;
+    world.set_thrust(scene.bat, along(axis, 1.0));
+    world.advance(0.5);
+    ASSERT_TRUE(world.is_held(scene.puck)) << "along " << axis;
+    const Vector2 position = world.position(scene.puck), velocity = world.velocity(scene.puck);
+    world.remove(scene.bat);
+    EXPECT_FALSE(world.is_held(scene.puck)) << "along " << axis;
+    world.advance(0.75);
+    EXPECT_EQ(world.velocity(scene.puck), velocity);
+    EXPECT_NEAR((world.position(scene.puck) - position - 0.25 * velocity).norm(), 0.0, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace rink::physics::test
