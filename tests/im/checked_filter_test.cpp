@@ -55,7 +55,9 @@ TEST_P(Strangers, AreToldWhatWasWrongAndWhoseItWas) {
   EXPECT_EQ(words(filter_.fly_entity(7, {.velocity_x = 1e200})), "the flight of entity 7 goes beyond 1e150, where its places have no numbers");
   EXPECT_EQ(words(filter_.fly_subscriber(3, {.time = infinite})), "the flight of subscriber 3 is not finite: a coordinate is infinite or not a number");
   EXPECT_EQ(words(filter_.fly_entity(3, {})), "update region 3 is not known");
+  EXPECT_EQ(words(filter_.set_time(0.0)), "") << "which it is to begin with";
   EXPECT_EQ(words(filter_.set_time(2.0)), "");
+  EXPECT_EQ(words(filter_.set_time(2.0)), "") << "time may stand still";
   EXPECT_EQ(words(filter_.set_time(1.0)), "the time is before the one before");
   EXPECT_EQ(words(filter_.set_time(not_a_number)), "the time is not finite: a coordinate is infinite or not a number");
   const auto changes = match();

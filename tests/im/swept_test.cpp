@@ -159,6 +159,25 @@ TEST(Swept, HoldsEveryPlaceOfAFlightUntilItsHorizonAndTellsTheTimes) {
   }
 }
 
+TEST(Swept, TellsTheTimesAnewWhereEitherOfTwoTakesAnotherWay) {
+  for (const bool turns_the_subscriber : {true, false}) {
+    const auto filter = make_filter("region with swept(horizon=1)", {.world = {0.0, 0.0, 100.0, 100.0}});
+    filter->set_update_region(0, around(50.0, 50.0, 0.0));
+    filter->set_subscription_region(0, around(50.0, 50.0, 10.0));
+    filter->set_flight(0, {.x = 50.0, .y = 50.0, .velocity_x = 2.0});
+    filter->set_subscriber_flight(0, {.x = 50.0, .y = 50.0, .velocity_x = -3.0});
+    filter->match();
+    ASSERT_EQ(filter->stays().size(), 1u);
+    EXPECT_NEAR(filter->stays()[0].leaves, 2.0, 1e-12) << "10 m at 5 m/s";
+    filter->set_time(1.0);
+    if (turns_the_subscriber) filter->set_subscriber_flight(0, {.x = 47.0, .y = 50.0, .velocity_x = 1.0, .time = 1.0});
+    else filter->set_flight(0, {.x = 52.0, .y = 50.0, .velocity_x = -2.0, .time = 1.0});
+    EXPECT_THAT(filter->match(), IsEmpty());
+    ASSERT_EQ(filter->stays().size(), 1u);
+    EXPECT_NEAR(filter->stays()[0].leaves, 6.0, 1e-12) << "5 m at 1 m/s either way";
+  }
+}
+
 TEST(Swept, CostsNothingForWhoRests) {
   const auto filter = make_filter("aura with swept(horizon=1 disc=1)", {.world = {0.0, 0.0, 100.0, 100.0}});
   for (Entity id = 0; id < 100; ++id) filter->set_update_region(id, around(id, 50.0, 0.5));

@@ -70,6 +70,23 @@ TEST(ConeScheme, LooksWhereItWasToldElseWhereItWentElseEverywhere) {
   EXPECT_THAT(match(*filter), ElementsAre(Change{0, 0, Transition::entered}, Change{0, 1, Transition::left}));
 }
 
+TEST(ConeScheme, LetsANewSubscriberLookEverywhereThoughOneOfItsNumberWentBefore) {
+  for (const bool was_told : {true, false}) {
+    const auto filter = make_filter("cone", {.world = arena, .half_angle_deg = 60.0});
+    filter->set_update_region(0, point(55.0, 50.0));
+    filter->set_update_region(1, point(45.0, 50.0));
+    filter->set_subscription_region(0, viewer);
+    EXPECT_THAT(entered(*filter), ElementsAre(0, 1));
+    if (was_told) filter->set_heading(0, {1.0, 0.0});
+    else filter->set_subscription_region(0, {40.5, 40.0, 60.5, 60.0});
+    EXPECT_THAT(match(*filter), ElementsAre(Change{0, 1, Transition::left}));
+    filter->remove_subscriber(0);
+    match(*filter);
+    filter->set_subscription_region(0, viewer);
+    EXPECT_THAT(entered(*filter), ElementsAre(0, 1)) << (was_told ? "told" : "moved");
+  }
+}
+
 TEST(ConeScheme, IsNetAndCostsNothingWhereNobodyTurns) {
   const auto filter = make_filter("cone", {.world = arena});
   filter->set_subscription_region(0, viewer);
