@@ -147,6 +147,20 @@ TEST(Admission, ConversationsMayBeCutAnywhereAndWhatFollowsThemIsLeft) {
   }
 }
 
+TEST(Admission, AStrangersFrameIsAtMostAKibibyteAndNeverEmpty) {
+  for (const std::uint32_t length : {0u, static_cast<std::uint32_t>(frame_max_to_join) + 1u, 0xffffffffu}) {
+    Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
+    const std::vector<std::byte> header = values_of(length);
+    Bytes bytes = header;
+    EXPECT_EQ(rti.receive(bytes), State::failed) << length << ", before anything of it is gathered";
+    EXPECT_EQ(rti.why(), "the other end speaks another language");
+  }
+  Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
+  const std::vector<std::byte> header = values_of(std::uint32_t{frame_max_to_join});
+  Bytes bytes = header;
+  EXPECT_EQ(rti.receive(bytes), State::going_on);
+}
+
 TEST(Admission, RandomBytesGetNoMoreThanTheyAre) {
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

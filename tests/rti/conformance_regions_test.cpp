@@ -80,6 +80,10 @@ TEST(Conformance, ARegionInUseForUpdateOrSubscriptionIsNotDeleted) {
   sky.up.associate_regions_for_updates(object, region);
   EXPECT_TRUE(refused());
   sky.up.delete_object_instance(object);
+  const ObjectHandle other = sky.up.register_object_instance(aircraft);
+  sky.up.associate_regions_for_updates(other, Sky::pair(where, region));
+  EXPECT_TRUE(refused());
+  sky.up.delete_object_instance(other);
   EXPECT_FALSE(refused());
   EXPECT_EQ(error_thrown_by([&] { sky.up.delete_region(region); }), HlaError::invalid_region) << "it is gone";
   sky.flights.tick();

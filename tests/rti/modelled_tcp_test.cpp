@@ -101,6 +101,20 @@ TEST(ModelledTcp, OnceTheRoundTripIsKnownTheTimeOutFollowsIt) {
   }
 }
 
+/// RFC 6298: after a first round trip r the time-out is r + 4 r/2, and a round trip goes there and back.
+TEST(ModelledTcp, ARoundTripTakesTheLatencyOfEachWay) {
+  for (const auto& [up, down] : {std::pair(10 * ms, 200 * ms), std::pair(200 * ms, 10 * ms)}) {
+    NetworkConditions conditions = both_ways({.latency_ns = up}, {{.from_ns = 2 * second, .until_ns = 2 * second + 300 * ms}});
+    conditions.from_listener.latency_ns = down;
+    Talk talk(std::move(conditions));
+    talk.run(2 * second);
+    talk.say("lost once");
+    talk.run(10 * second);
+    EXPECT_EQ(talk.server_ear.text, "lost once");
+    EXPECT_EQ(talk.server_ear.last_ns, 2 * second + 3 * (up + down) + up) << up << " up";
+  }
+}
+
 TEST(ModelledTcp, ASegmentWithThreeBehindItIsSentAgainAfterOneRoundTrip) {
   // 1500 bytes take 12 ms at 1 Mbit/s: the cut takes the first of five segments, or the last.
   const auto arrival_ns = [](std::int64_t cut_ns) {
