@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "game/control/playing.h"
 #include "game/players/gathering.h"
@@ -127,6 +128,53 @@ PlayerRules wide_rules() {
   rules.bat_drag = 3.0;
   rules.thrust = 4.9;
   return rules;
+}
+
+/// Three materials, each pair of which bounces otherwise.
+TEST(PlayerRules, AreThoseOfTheOwnBatAndThePucks) {
+  const Scene scene = small_scene(
+      "material = \"wall\"\n[materials]\nnames = [\"wall\", \"puck\", \"bat\"]\nrestitution = 0.9\n"
+      "[[materials.pair]]\nbetween = [\"puck\", \"bat\"]\nrestitution = 0.4\n[[materials.pair]]\nbetween = [\"puck\", \"wall\"]\nrestitution = 0.6\n"
+      "[drag]\npucks = 0.25\nbats = 2.0\n[[puck]]\nposition = [2.0, 1.0]\nmass = 0.05\nmaterial = \"puck\"\n"
+      "[[bat]]\nposition = [1.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 3.0\nthrust = 5.0\nteam = \"left\"\nmaterial = \"wall\"\n"
+      "[[bat]]\nposition = [3.0, 1.0]\nhalf_extent = [0.03, 0.1]\nmass = 0.5\nthrust = 8.0\nteam = \"right\"\nmaterial = \"bat\"\n");
+  const PlayerRules first = rules_of(scene, 0), second = rules_of(scene, 1);
+  EXPECT_EQ(first.restitution, 0.6);
+  EXPECT_EQ(second.restitution, 0.4);
+  EXPECT_EQ(first.bat_mass, 3.0);
+  EXPECT_EQ(second.bat_mass, 0.5);
+  EXPECT_EQ(first.thrust, 5.0);
+  EXPECT_EQ(second.thrust, 8.0);
+  for (const PlayerRules& rules : {first, second}) {
+    EXPECT_EQ(rules.puck_mass, 0.05);
+    EXPECT_EQ(rules.puck_drag, 0.25);
+    EXPECT_EQ(rules.bat_drag, 2.0);
+  }
+}
+
+TEST(Reach, EndsAtTheWallsAndWhereBatsKeepToTheirHalfAtTheHalfwayLine) {
+  PlayerRules rules{.field = {.length = 4.0, .width = 2.0}};
+  const Vector2 half(0.1, 0.2);
+  for (const Team team : {Team::left, Team::right, Team::none})
+    for (const bool keeps : {false, true}) {
+      rules.field.bats_keep_to_half = keeps;
+      const Reach reach = reach_of(rules, {.number = 0, .team = team, .half_extent = half});
+      EXPECT_EQ(reach.low, Vector2(keeps && team == Team::right ? 2.1 : 0.1, 0.2));
+      EXPECT_EQ(reach.high, Vector2(keeps && team == Team::left ? 1.9 : 3.9, 1.8));
+    }
+}
+
+/// Four pucks lie nearest when play begins, and glide to where the bat may not go. A fifth one comes from there.
+TEST(Chaser, LooksForPucksWhereTheyAreNow) {
+  std::string text = "bats_keep_to_half = true\n[materials]\nrestitution = 0.9\n[drag]\nbats = 3.0\npucks = 0.8\n[[bat]]\nposition = [0.3, 1.0]\nhalf_extent = [0.03, 0.1]\nteam = \"left\"\n";
+  for (const char* row : {"0.15", "0.4", "1.6", "1.85"}) text += "[[puck]]\nposition = [0.6, " + std::string(row) + "]\nvelocity = [2.0, 0.0]\n";
+  text += "[[puck]]\nposition = [3.5, 1.3]\nvelocity = [-2.0, 0.0]\n";
+  Playing playing(small_scene(text), {"chaser-expert"}, 1, 20.0);
+  const std::span<const Entity> entities = playing.game().entities();
+  const auto latest = std::ranges::find_if(entities, [&](const Entity& entity) { return entity.kind == physics::BodyKind::puck && playing.game().position(entity.id).x() > 3.0; });
+  ASSERT_NE(latest, entities.end());
+  while (playing.game().now() < 20.0 && playing.game().velocity(latest->id).x() <= 0.0) playing.advance(playing.game().now() + 0.01);
+  EXPECT_LT(playing.game().now(), 20.0) << "nobody hit it";
 }
 
 TEST(Chaser, ExpectsPucksWhereDragAndFrictionTakeThem) {

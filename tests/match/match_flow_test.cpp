@@ -55,6 +55,9 @@ TEST_F(AMatch, GivesWhoLeftThirtySecondsToComeBack) {
   start();
   flow.leave(1, 30.0);
   EXPECT_EQ(phase(), MatchPhase::away);
+  EXPECT_EQ(simulated_at(flow.state(), 45.0), 7.0) << "the match stands still at where it was left";
+  flow.advance(59.9);
+  EXPECT_EQ(phase(), MatchPhase::away);
   flow.advance(59.9);
   EXPECT_EQ(phase(), MatchPhase::away);
   flow.enter(1, 59.95);
@@ -62,6 +65,7 @@ TEST_F(AMatch, GivesWhoLeftThirtySecondsToComeBack) {
   flow.advance(63.0);
   EXPECT_TRUE(flow.runs());
   EXPECT_EQ(flow.state().number, 1u) << "it is the same match";
+  EXPECT_NEAR(simulated_at(flow.state(), 63.0), 7.0 + (63.0 - (59.95 + 3.0)), 1e-12) << "and goes on there";
 }
 
 TEST_F(AMatch, IsWonByWhoStaysIfTheOtherDoesNotComeBack) {

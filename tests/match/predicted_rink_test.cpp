@@ -115,6 +115,56 @@ TEST(APredictedRink, LeavesAWrongPlaceBehindWithinATenthOfASecondWithoutAJump) {
   EXPECT_LT((rink.bats()[0].position - bat_of(game, 0)).norm(), 1e-9);
 }
 
+/// A bat's place is always made up for smoothly; a puck that is more than 0.3 m off jumps.
+TEST(APredictedRink, GlidesToABatHoweverWrongItWasAndJumpsToAPuckThatIsFarOff) {
+  const Scene scene = match_scene();
+  Game game(scene);
+  ToldRink told = told_by(game);
+  PredictedRink rink(scene, 0);
+  rink.hear(told);
+  rink.advance(0.0, 0.0);
+  const Vector2 bat = rink.bats()[0].position, puck = rink.pucks()[0].position;
+  told.time = 0.01;
+  told.bats[0].position.y() -= 0.4, told.pucks[0].position.y() += 0.4;
+  rink.advance(0.01, 0.0);
+  rink.hear(told);
+  rink.advance(0.01, 0.0);
+  EXPECT_LT((rink.bats()[0].position - bat).norm(), 1e-9);
+  EXPECT_NEAR(rink.own_corrections().greatest, 0.4, 1e-9);
+  EXPECT_EQ(rink.own_corrections().visible_count, 1u);
+  EXPECT_NEAR((rink.pucks()[0].position - puck).norm(), 0.4, 1e-6);
+  EXPECT_EQ(rink.puck_corrections().visible_count, 0u);
+  told.time = 0.2;
+  told.pucks[0].position.y() -= 0.2;
+  rink.advance(0.2, 0.0);
+  const Vector2 shown = rink.pucks()[0].position;
+  rink.hear(told);
+  rink.advance(0.2, 0.0);
+  EXPECT_LT((rink.pucks()[0].position - shown).norm(), 1e-9);
+  EXPECT_EQ(rink.puck_corrections().visible_count, 1u);
+}
+
+TEST(APredictedRink, LetsAPucksTimeRunAtMostThreeTimesAndAtLeastThreeTenthsAsFast) {
+  Scene scene = match_scene();
+  scene.bodies.pucks[0].body.velocity = {0.0, 0.0};
+  scene.bodies.pucks[0].body.position = {2.05, 0.6};  // at the other's bat: shown as late as that
+  Game game(scene);
+  PredictedRink rink(scene, 0);
+  rink.hear(told_by(game));
+  rink.advance(0.0, 0.0);
+  double now = 0.0;
+  const auto rate_at = [&](double delay) {
+    const double before = rink.pucks()[0].time;
+    now += 0.01;
+    rink.advance(now, delay);
+    return (rink.pucks()[0].time - before) / 0.01;
+  };
+  for (int step = 0; step < 20; ++step) EXPECT_NEAR(rate_at(0.2), 0.3, 1e-6) << "the delay has grown: " << step;
+  while (now < 1.0) rate_at(0.2);
+  EXPECT_NEAR(now - rink.pucks()[0].time, 0.2, 1e-6);
+  for (int step = 0; step < 9; ++step) EXPECT_NEAR(rate_at(0.0), 3.0, 1e-6) << "the delay is gone: " << step;
+}
+
 TEST(APredictedRink, ShowsAPuckAtEachBatInThatBatsOwnTime) {
   Scene scene = match_scene();
   scene.bodies.pucks[0].body.velocity = {0.0, 0.0};

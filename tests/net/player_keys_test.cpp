@@ -11,8 +11,8 @@ namespace rink::game {
 namespace {
 
 /// A hosted match whose clock is that of the test, and which runs from the start.
-LockstepSettings hosted() {
-  Hosting hosting{.times = {.countdown_s = 0.0}, .scene_text = scene_text(test::source_folder() + "/scenes/match.toml")};
+LockstepSettings hosted(double patience_s = 30.0) {
+  Hosting hosting{.times = {.countdown_s = 0.0, .patience_s = patience_s}, .scene_text = scene_text(test::source_folder() + "/scenes/match.toml")};
   return {.clients = 2, .rate_hz = 60.0, .view_fraction = 1.0, .server = {.tick_s = 1.0 / 60.0, .replay = std::nullopt, .hosting = std::move(hosting)}};
 }
 
@@ -64,6 +64,29 @@ TEST_F(PlayerKeys, OfOneWhoLeftAreNotHeldForTheNextOnTheSeatNorCounted) {
   ASSERT_NE(next.bat(), nullptr);
   EXPECT_EQ(next.bat()->input.count, 0u) << "keys that the next player did not press";
   EXPECT_EQ(next.bat()->input.held, 0u);
+}
+
+TEST(PlayerKeysOfARematch, AreNotHeldUpByThoseOfTheMatchBefore) {
+  LockstepRink rink(match(), hosted(0.25));
+  rink.start();
+  while (rink.now < 3.0) rink.tick();
+  rink.server().follow_match(rink.now);
+  rink.client(0).press(Key::up, rink.now);
+  rink.settle();
+  ASSERT_GE(rink.server().record().back().time, 2.9);
+  rink.leave(1);
+  while (rink.now < 4.0) rink.tick();
+  rink.server().follow_match(rink.now);
+  ASSERT_EQ(rink.server().match()->phase, MatchPhase::over);
+  rink.add_client("next");
+  rink.settle();
+  rink.settle();
+  rink.server().follow_match(rink.now);
+  ASSERT_EQ(rink.server().match()->number, 2u);
+  rink.client(0).press(Key::down);
+  rink.settle();
+  ASSERT_EQ(rink.server().record().size(), 1u);
+  EXPECT_LT(rink.server().record().back().time, 0.5);
 }
 
 /// In a crowd the bat goes with its player, and the next one has another.

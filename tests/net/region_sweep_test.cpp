@@ -5,6 +5,7 @@
 #include "game/replication/region_sweep.h"
 #include "game/players/random_plan.h"
 #include "tests/net/scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::game {
 namespace {
@@ -23,6 +24,24 @@ TEST(RegionSweep, ThePathBoxHoldsEveryPointOfThePathAndTouchesIt) {
     highest = std::max(highest, at.x());
   }
   EXPECT_NEAR(box.high_x, highest, 1e-9) << "it turns on the way, and the box ends where it does";
+}
+
+/// Of all that an impact can do, what it does most: a light one that rests is thrown at twice the speed of the heavy one
+/// that hits it just after a tick. If it comes to meet it, its own speed is added.
+TEST(RegionSweep, HoldsWhoIsThrownByAnImpactRightAfterTheTick) {
+  constexpr double tick_s = 0.05, radius = 0.1, speed = 10.0;
+  for (const double own : {0.0, 3.0, 10.0}) {
+    physics::World world(physics::test::rink_of(10.0, 2.0));
+    const physics::BodyId light = world.add(physics::PuckSpec{.position = {5.0, 1.0}, .velocity = {-own, 0.0}, .radius = radius, .mass = 1e-3});
+    world.add(physics::PuckSpec{.position = {5.0 - 2.0 * radius - 1e-6, 1.0}, .velocity = {speed, 0.0}, .radius = radius, .mass = 1e3});
+    RegionSweep sweep(1, tick_s);
+    sweep.look_at(world);
+    RegionSweep::Swept swept;
+    const im::Region region = sweep.region(world, light, swept);
+    world.advance(tick_s);
+    EXPECT_NEAR(world.velocity(light).x(), 2.0 * speed + own, 1e-3);
+    EXPECT_TRUE(contains(region, bounding_box(world.position(light), world.half_extent(light)))) << world.position(light).x() << " beyond " << region.high_x;
+  }
 }
 
 TEST(RegionSweep, WhatIsDecidedAtATickHoldsUntilTheNextWhateverIsHit) {

@@ -112,6 +112,38 @@ TEST(Server, StepsInSynchronousModeWhenAllPlayersHaveSaidUpdate) {
   EXPECT_FALSE(rink.server().all_turns_done());
 }
 
+TEST(Server, WaitsForTheOthersTurnsWhereOneLeavesWhoseTurnIsDone) {
+  LockstepRink rink(small_crowd(), {.clients = 3});
+  rink.start();
+  rink.client(0).end_turn();
+  rink.client(1).end_turn();
+  rink.settle();
+  rink.leave(1);
+  rink.settle();
+  EXPECT_FALSE(rink.server().all_turns_done()) << "the last one has not had its turn";
+  rink.client(2).end_turn();
+  rink.settle();
+  EXPECT_TRUE(rink.server().all_turns_done());
+}
+
+/// Whoever predicts must know which of its keys are in the state that it is sent.
+TEST(Server, CountsAKeyAsFeltInTheTickThatAppliesIt) {
+  constexpr double tick_s = 1.0 / 32.0;
+  for (const double part : {0.5, 1.0}) {
+    LockstepRink rink(match(), {.clients = 1, .rate_hz = 1.0 / tick_s, .server = {.tick_s = tick_s, .replay = std::nullopt}});
+    rink.start();
+    rink.tick();
+    rink.now += part * tick_s;
+    rink.client(0).press(Key::up);
+    rink.settle();
+    ASSERT_EQ(rink.server().record().size(), 1u);
+    rink.tick();
+    EXPECT_GE(rink.server().game().now(), rink.server().record()[0].time);
+    EXPECT_EQ(rink.client(0).bat()->input.count, 1u) << part;
+    EXPECT_EQ(rink.client(0).bat()->input.held, rink.server().game().keys_held(0).bits()) << part;
+  }
+}
+
 /// 9,600 key changes a second, as a program sends them: a full second's worth is felt at once, and of each later tick its share.
 TEST(Server, FeelsNoMoreKeysOfAPlayerThanItsLimitAndAllOfTheOther) {
   LockstepRink rink(match(), {.clients = 2, .rate_hz = 30.0});
