@@ -9,16 +9,15 @@ namespace {
 /// An entity that was not heard of for so long [s] stands still, as far as its last two positions are to say: one that moves is told of at every tick.
 constexpr double silence_s = 0.15;
 
-/// The rules of the same game on a field of `extent`.
-game::PlayerRules rescaled(game::PlayerRules rules, const game::Extent& extent) {
+}  // namespace
+
+game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent) {
   const double width = static_cast<double>(extent.width);
   rules.field.goal_width *= width / rules.field.width;
   rules.field.length = static_cast<double>(extent.length);
   rules.field.width = width;
   return rules;
 }
-
-}  // namespace
 
 game::KeysHeld LivePlayer::decide(const game::Client& client, double instant) {
   const game::MirroredEntity* bat = client.bat();
@@ -38,7 +37,7 @@ void LivePlayer::take_seat(const game::Client& client, const game::MirroredEntit
   const game::PlayerSeat seat{.number = number_,
                               .team = static_cast<game::Team>(bat.shape.team),
                               .half_extent = {static_cast<double>(bat.shape.half_length), static_cast<double>(bat.shape.half_width)}};
-  player_ = game::make_player(players_.kind, rescaled(players_.rules, *client.mirror().field()), seat, players_.seed);
+  player_ = game::make_player(players_.kind, rules_on(players_.rules, *client.mirror().field()), seat, players_.seed);
 }
 
 void LivePlayer::look_about(const game::Mirror& mirror, const game::Vector2& from) {

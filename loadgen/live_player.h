@@ -21,6 +21,9 @@ struct LivePlayers {
   bool do_decide() const { return kind != "random"; }
 };
 
+/// The rules of the same game on a field of `extent`, in whose width the goals take the same part.
+game::PlayerRules rules_on(game::PlayerRules rules, const game::Extent& extent);
+
 /// Closed loop: what it does depends on what it was told, and when.
 class LivePlayer {
  public:

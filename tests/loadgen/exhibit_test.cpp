@@ -67,6 +67,28 @@ TEST(Gains, ArePairedBySeedSoThatWhatBothShareCancels) {
   EXPECT_THAT(headline_of(findings), AllOf(HasSubstr("region, on-event sends 40.0 times fewer"), HasSubstr("2.00 mm RMS against 4.00 mm")));
 }
 
+/// A client that sees more is sent more, under any policy.
+TEST(Gains, AreOverTheBaselineOfTheSameView) {
+  const Experiment experiment = small_experiment();
+  std::vector<RunRecord> runs;
+  for (const double view : {0.2, 0.1, 0.4})
+    for (const char* policy : {"periodic", "on-event"})
+      for (const std::uint64_t seed : {1, 2}) {
+        runs.push_back(run_of("none", policy, 10, seed, 1000.0 * view / (std::string(policy) == "periodic" ? 1.0 : 10.0 * view), 1.0));
+        runs.back().cell.parameters.view_fraction = view;
+      }
+  const Findings findings = findings_of(experiment, runs);
+  int compared = 0;
+  for (const Gain& gain : gains_of(findings)) {
+    ASSERT_TRUE(gain.bytes);
+    if (gain.kind != Gain::Kind::policy_alone) continue;
+    const double view = gain.group->cell.parameters.view_fraction;
+    EXPECT_NEAR(gain.bytes->value, 10.0 * view, 1e-9) << view;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 3);
+}
+
 TEST(Gains, ADifferenceWithinTheScatterIsCalledNotSignificant) {
   const Experiment experiment = small_experiment();
   std::vector<RunRecord> runs;

@@ -93,6 +93,18 @@ TEST(Saturation, OneUnluckyProbeDoesNotDecideAndNeitherDoesOneLuckyOne) {
   EXPECT_GT(*search.held, 900u);
 }
 
+TEST(Saturation, AnEdgeThatDoesNotHoldTwiceLeavesWhatHeldBelowIt) {
+  const auto lucky = [](std::uint32_t clients, std::uint32_t attempt) {
+    return std::optional(clients <= 1'000 || (clients == 1'500 && attempt == 0) ? Verdict::holds : Verdict::fails);
+  };
+  const Search search = find_largest({.first = 100, .most = 1'500}, lucky);
+  EXPECT_GT(*search.held, 900u);
+  // 100, 200, 400 and 800 held once: nothing below 800 is asked again, nor anything between.
+  const auto last_of_the_edge = std::ranges::find_if(search.trials, [](const Trial& trial) { return trial.clients == 1'500 && trial.attempt == 2; });
+  ASSERT_NE(last_of_the_edge, search.trials.end());
+  for (auto trial = last_of_the_edge; trial != search.trials.end(); ++trial) EXPECT_GE(trial->clients, 800u);
+}
+
 /// The service's chance to hold falls from 1 to 0 around `limit`, log-normally with `width`.
 TEST(Saturation, ANoisyEdgeIsFoundWithinItsNoiseAndTheResolution) {
   constexpr double limit = 1'000.0, width = 0.03, resolution = 0.05;

@@ -110,6 +110,13 @@ TEST_F(TinyRink, LateEntriesAndChurnFollowFromTheTimesOfArrival) {
   EXPECT_DOUBLE_EQ(*truth.flapping_fraction, 0.0);
 }
 
+/// It leaves for half a second, then for longer than a second: one flap in three entries.
+TEST_F(TinyRink, FlappingIsThePartOfEntriesThatFollowALeavingWithinASecond) {
+  const std::pair<double, bool> steps[] = {{0.5, true}, {1.0, false}, {1.5, true}, {2.0, false}, {3.5, true}};
+  for (const auto& [instant_s, is_in] : steps) bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
+  EXPECT_DOUBLE_EQ(*judged().flapping_fraction, 1.0 / 3.0);
+}
+
 TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
   const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched, Vector2 displayed) {
     bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});

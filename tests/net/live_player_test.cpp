@@ -32,6 +32,15 @@ game::Score score_of(const std::vector<std::string>& kinds, double seconds) {
   return rink.server().game().score();
 }
 
+TEST(LivePlayer, TakesGoalsForAsWideInALargerFieldAsTheyAreThere) {
+  game::PlayerRules rules{.field = {.length = 2.4, .width = 1.2, .goal_width = 0.4}, .puck_mass = 0.25};
+  const game::PlayerRules larger = rules_on(rules, {.length = 24.0f, .width = 6.0f});
+  EXPECT_EQ(larger.field.length, 24.0);
+  EXPECT_EQ(larger.field.width, 6.0);
+  EXPECT_NEAR(larger.field.goal_width, 2.0, 1e-12);
+  EXPECT_EQ(larger.puck_mass, 0.25);
+}
+
 TEST(LivePlayer, AChaserThatSeesOnlyItsMirrorOutscoresOneWhoDoesNotLook) {
   const game::Score score = score_of({"chaser-expert", "waypoint"}, 90.0);
   EXPECT_GT(score.left, score.right);

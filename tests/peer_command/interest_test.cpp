@@ -5,6 +5,8 @@
 
 #include "game/net/peer/player_picture.h"
 #include "game/net/peer/sender_interest.h"
+#include "game/peer/assembly.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::game {
 namespace {
@@ -39,6 +41,33 @@ TEST(Gaze, IsRefusedIfNoPlayerCouldHaveIt) {
   bad = good;
   for (std::size_t k = 1; k < 5; ++k) bad[k] = std::byte{0xff};
   EXPECT_FALSE(gaze_from(bad)) << "not a number";
+}
+
+/// Pucks that nothing happens to are told of once, and once more to whoever looked away and comes back.
+TEST(SenderInterest, TellsWhoLooksAgainOfWhatIsThereThoughNothingHappenedToIt) {
+  physics::World world(physics::test::rink_of(8.0, 2.0));
+  for (const double x : {1.0, 1.5, 2.0}) world.add(physics::PuckSpec{.position = {x, 1.0}, .radius = 0.05});
+  const physics::BodyId bat = world.add(physics::BatSpec{.position = {7.0, 1.0}});
+  peer::Assembly assembly(world, peer::Division(world.spec().field, {{{0.0, 0.0, 4.0, 2.0}, 0}, {{4.0, 0.0, 8.0, 2.0}, 1}}, 2), 0.1, 0.02);
+  const peer::Peer& sender = assembly.peers()[0];
+  SenderInterest interest("region", {.world = {0.0, 0.0, 8.0, 2.0}}, "on-event", std::vector<im::Role>(4), 0.05);
+  interest.add_player(1, bat.index);
+  const im::Region view{0.5, 0.5, 2.5, 1.5};
+  std::uint32_t window = 0;
+  const auto bytes_told = [&] {
+    assembly.advance();
+    interest.match(sender);
+    return interest.updates_for(sender, 1, window++, [](std::uint32_t) { return std::nullopt; }).size();
+  };
+  interest.look(1, view);
+  const std::size_t all = bytes_told();
+  EXPECT_GT(all, 3u * 5u) << "a number, an instant and a place of each";
+  EXPECT_EQ(interest.scope_of(1).size(), 3u);
+  EXPECT_EQ(bytes_told(), 0u) << "nothing happened";
+  interest.look_away(1);
+  interest.look(1, view);
+  EXPECT_EQ(bytes_told(), all);
+  EXPECT_EQ(bytes_told(), 0u);
 }
 
 TEST(PlayerPicture, SurvivesWhateverItIsTold) {
