@@ -14,6 +14,7 @@ class AuraFilter final : public OverlapFilter {
 
   /// The disc around the middle of the way that holds the discs all along it: larger by half of the way.
   void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
+    if (from == to) return set_subscription_region(subscriber, from);
     const Region start = centre_of(from), end = centre_of(to);
     const double way = std::hypot(end.low_x - start.low_x, end.low_y - start.low_y);
     const double radius = 0.5 * std::min(from.high_x - from.low_x, from.high_y - from.low_y);

@@ -34,6 +34,7 @@ class HexFilter final : public PredicateFilter<TouchesHexagon> {
   void set_update_region(Entity entity, const Region& region) override { PredicateFilter::set_update_region(entity, hexagon_around(centre_of(region))); }
   /// No point is farther from its hexagon's middle than a corner is, nor from any point of the hexagon than twice that.
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
+    if (from == to) return set_update_region(entity, from);
     const Region centres = hull_of(centre_of(from), centre_of(to));
     const double across = 2.0 * width_ / sqrt3;
     const auto bounded = [](double coordinate) { return std::clamp(coordinate, -largest, largest); };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "im/candidate_pairs.h"
+#include "im/marks.h"
 #include "im/odometer.h"
 #include "im/overlap_filter.h"
 
@@ -109,22 +110,6 @@ class PredicateFilter : public OverlapFilter {
     rests_until = slack > 0.0 ? until - until * 0x1p-20f : -std::numeric_limits<float>::infinity();
     return is.is_relevant;
   }
-
-  /// Which ids are swept; takes no memory until one is.
-  class Marks {
-   public:
-    bool has(std::uint32_t id) const { return id < marks_.size() && marks_[id] != 0; }
-    void set(std::uint32_t id) {
-      if (id >= marks_.size()) marks_.resize(id + std::size_t{1});
-      marks_[id] = 1;
-    }
-    void unset(std::uint32_t id) {
-      if (id < marks_.size()) marks_[id] = 0;
-    }
-
-   private:
-    std::vector<std::uint8_t> marks_;
-  };
 
   Relevant relevant_;
   CandidatePairs pairs_;

@@ -95,21 +95,30 @@ std::size_t operand_count(const Expression& expression) {
   return count;
 }
 
-void flatten(const Expression& expression, const FilterSettings& settings, std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
+/// Whether what it says of a pair depends on where the two are.
+bool looks_at_places(const Expression& expression) {
+  if (expression.kind == Kind::scheme) return expression.name != "always" && expression.name != "none" && expression.name != "owner" && expression.name != "team";
+  return std::any_of(expression.operands.begin(), expression.operands.end(), looks_at_places);
+}
+
+/// Of who is swept, an operand says whether it is true anywhere on the way. Under a `not`, `is_negated`, what counts is whether it is true everywhere on the way. That is
+/// not known, so it is taken as false.
+void flatten(const Expression& expression, const FilterSettings& settings, bool is_negated, std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
   if (is_operand(expression)) {
     steps.push_back(static_cast<Step>(operands.size()));
+    if (is_negated && looks_at_places(expression)) steps.insert(steps.end(), {Step::is_still, Step::conjunction});
     operands.push_back(build_filter(expression, settings));
     return;
   }
-  for (const Expression& operand : expression.operands) flatten(operand, settings, operands, steps);
+  for (const Expression& operand : expression.operands) flatten(operand, settings, is_negated != (expression.kind == Kind::negation), operands, steps);
   steps.push_back(expression.kind == Kind::negation ? Step::negation : expression.kind == Kind::conjunction ? Step::conjunction : Step::alternative);
 }
 
 std::unique_ptr<Filter> build_combination(const Expression& expression, const FilterSettings& settings) {
   std::vector<std::unique_ptr<Filter>> operands;
   std::vector<Step> steps;
-  flatten(expression, settings, operands, steps);
-  if (follow(steps, 0)) {
+  flatten(expression, settings, false, operands, steps);
+  if (follow(steps, 0, true)) {
     // True where no operand is: it has to hear of every pair there is.
     steps.push_back(static_cast<Step>(operands.size()));
     steps.push_back(Step::conjunction);

@@ -3,18 +3,33 @@
 
 namespace rink::im {
 
+PairStates::Entry* PairStates::find(Buffer<Entry>& entries, Entity entity) {
+  Entry* const end = entries.data() + entries.size();
+  Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
+  return place == end || place->entity != entity ? nullptr : place;
+}
+
 void PairStates::remove_entity(Entity entity) {
   for (Buffer<Entry>& entries : entries_) {
-    Entry* const end = entries.data() + entries.size();
-    Entry* const place = std::lower_bound(entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
-    if (place == end || place->entity != entity) continue;
-    std::copy(place + 1, end, place);
+    Entry* const place = find(entries, entity);
+    if (place == nullptr) continue;
+    std::copy(place + 1, entries.data() + entries.size(), place);
     entries.resize(entries.size() - 1);
   }
 }
 
 void PairStates::remove_subscriber(Subscriber subscriber) {
   if (subscriber < entries_.size()) entries_[subscriber].clear();
+}
+
+void PairStates::touch_entity(Entity entity) {
+  for (Subscriber subscriber = 0; subscriber < entries_.size(); ++subscriber)
+    if (find(entries_[subscriber], entity) != nullptr) news_.push_back({subscriber, entity, 0, 0});
+}
+
+void PairStates::touch_subscriber(Subscriber subscriber) {
+  if (subscriber >= entries_.size()) return;
+  for (const Entry& entry : entries_[subscriber].span()) news_.push_back({subscriber, entry.entity, 0, 0});
 }
 
 void PairStates::take(std::size_t k, std::span<const Change> changes) {

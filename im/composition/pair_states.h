@@ -24,10 +24,13 @@ class PairStates {
   /// Forgets the pairs of one who is gone. That of an entity looks at the list of every subscriber.
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
+  /// Has all its pairs looked at again. That of an entity looks at the list of every subscriber.
+  void touch_entity(Entity entity);
+  void touch_subscriber(Subscriber subscriber);
 
   /// Takes the changes of filter `k` at this match; to be called for each of them before `review`.
   void take(std::size_t k, std::span<const Change> changes);
-  /// Asks `decide(says, was)` for the level of each pair about which something was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
+  /// Asks `decide(subscriber, entity, says, was)` for the level of each pair about which something was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
   template <class Decide>
   std::size_t review(const Decide& decide, Buffer<Change>& changes);
 
@@ -42,6 +45,8 @@ class PairStates {
     Entity entity;
     Says on, off;
   };
+  /// That of the entity; null if there is none.
+  static Entry* find(Buffer<Entry>& entries, Entity entity);
   static bool is_before(const News& a, const News& b) { return a.subscriber != b.subscriber ? a.subscriber < b.subscriber : a.entity < b.entity; }
   void join_news();
   template <class Decide>
@@ -56,7 +61,7 @@ template <class Decide>
 void PairStates::look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes) {
   const Level was = entry.level;
   entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
-  entry.level = decide(entry.says, was);
+  entry.level = decide(news.subscriber, news.entity, entry.says, was);
   const auto tier = static_cast<std::uint8_t>(entry.level == 0 ? 0 : entry.level - 1);
   if ((was == 0) != (entry.level == 0)) changes.push_back({news.subscriber, news.entity, was == 0 ? Transition::entered : Transition::left, tier});
   else if (was != entry.level) changes.push_back({news.subscriber, news.entity, Transition::tier_changed, tier});

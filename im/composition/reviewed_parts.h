@@ -26,7 +26,7 @@ class ReviewedParts : public Parts {
   }
 
  protected:
-  /// Lets every part match and asks `decide(says, was)` for the level of each pair about which one of them changed its mind. Returns what is to be reported.
+  /// Lets every part match and asks `decide(subscriber, entity, says, was)` for the level of each pair about which one of them changed its mind. Returns what is to be reported.
   template <class Decide>
   std::span<const Change> matched(const Decide& decide) {
     for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
@@ -35,7 +35,6 @@ class ReviewedParts : public Parts {
     return reported(changes_.span());
   }
 
- private:
   PairStates pairs_;
 };
 

@@ -26,7 +26,7 @@ class Hysteresis final : public ReviewedParts {
     parts_[1]->set_swept_subscription_region(subscriber, grown(from, margin_), grown(to, margin_));
   }
   std::span<const Change> match() override {
-    return matched([this](PairStates::Says says, PairStates::Level was) { return decide(says, was); });
+    return matched([this](Subscriber, Entity, PairStates::Says says, PairStates::Level was) { return decide(says, was); });
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);

@@ -25,7 +25,7 @@ class Tiers final : public ReviewedParts {
     for (std::size_t k = 0; k < fractions_.size(); ++k) parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
   }
   std::span<const Change> match() override {
-    const auto level = [this](PairStates::Says says, PairStates::Level) {
+    const auto level = [this](Subscriber, Entity, PairStates::Says says, PairStates::Level) {
       if ((says & 1u) == 0) return PairStates::Level{0};
       const auto tier = std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))), fractions_.size());
       return static_cast<PairStates::Level>(1 + tier);

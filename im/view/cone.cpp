@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "im/predicate_filter.h"
@@ -25,6 +26,12 @@ class Views {
   }
   bool is_told(Subscriber subscriber) const { return views_[subscriber].is_told; }
   Heading heading(Subscriber subscriber) const { return views_[subscriber].heading; }
+  void set_swept(Subscriber subscriber, bool is_swept) { views_[subscriber].is_swept = is_swept; }
+  /// Whether it moved from one place to another since it moved last. To be asked once for each move.
+  bool has_way(Subscriber subscriber) {
+    View& view = views_[subscriber];
+    return !std::exchange(view.was_swept, view.is_swept) && !view.is_swept;
+  }
   void make_room(Subscriber subscriber) {
     if (subscriber >= views_.size()) views_.resize(subscriber + std::size_t{1});
   }
@@ -37,7 +44,8 @@ class Views {
  private:
   struct View {
     Heading heading;
-    bool is_told = false;  ///< not learnt from moves
+    bool is_told = false;                       ///< not learnt from moves
+    bool is_swept = false, was_swept = false;  ///< its region now, and when it moved last, is no place where it is
     Wedge wedge;
   };
   std::vector<View> views_;
@@ -61,11 +69,15 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
 
   void set_subscription_region(Subscriber subscriber, const Region& region) override {
     make_room(subscriber);
+    set_swept(subscriber, false);
     PredicateFilter::set_subscription_region(subscriber, region);
   }
   void set_swept_subscription_region(Subscriber subscriber, const Region& from, const Region& to) override {
-    make_room(subscriber);
+    if (from == to) return set_subscription_region(subscriber, from);
     PredicateFilter::set_swept_subscription_region(subscriber, from, to);
+    set_swept(subscriber, true);
+    const Eye start(plain(from)), end(plain(to));
+    if (!is_told(subscriber)) look(subscriber, {end.x - start.x, end.y - start.y}, false);  // which matters once it has landed
   }
   void remove_subscriber(Subscriber subscriber) override {
     forget(subscriber);
@@ -88,7 +100,7 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
  private:
   void learn(Subscriber subscriber) {
     const Motion& motion = subscribers_[subscriber];
-    if (is_told(subscriber) || is_nowhere(motion.before) || is_nowhere(motion.now)) return;
+    if (!has_way(subscriber) || is_told(subscriber) || is_nowhere(motion.before) || is_nowhere(motion.now)) return;
     const Eye from(plain(motion.before)), to(plain(motion.now));
     const Heading way{to.x - from.x, to.y - from.y};
     if (way == Heading{}) return;

@@ -256,6 +256,46 @@ TEST(Priority, FillsWithTheMostUrgentAndPutsOffAllOthers) {
   }
 }
 
+/// (Matches since it was last sent) / ((1 + d / r) 2^tier), d in the plane; of a state the matches since it entered, and one more.
+TEST(Priority, OrdersByTheMatchesWaitedTheDistanceAndTheTier) {
+  const auto filter = make_filter("region with tiers(at=0.4) with priority", hundred);
+  PriorityOrder& order = *filter->priority();
+  Random random(9);
+  constexpr double half = 20.0;
+  std::map<Entity, Region> places;
+  std::map<Entity, int> since, tier;  // the match at which it was sent last, or entered
+  std::map<Entity, bool> is_state;
+  filter->set_subscription_region(0, around(50.0, 50.0, half));
+  std::size_t compared = 0;
+  for (int match = 1; match <= 40; ++match) {
+    for (Entity entity = 0; entity < 150; ++entity) {
+      const double x = between(random, 25.0, 75.0), y = between(random, 25.0, 75.0);
+      if (match == 1 || between(random, 0.0, 1.0) < 0.1) filter->set_update_region(entity, places[entity] = around(x, y, 0.1));
+    }
+    for (const Change& change : filter->match()) {
+      if (change.transition == Transition::left) since.erase(change.entity);
+      if (change.transition == Transition::entered) since[change.entity] = match, is_state[change.entity] = true;
+      if (change.transition != Transition::left) tier[change.entity] = change.tier;
+    }
+    const auto urgency = [&](Entity entity) {
+      const Region& place = places[entity];
+      const double d = std::hypot(0.5 * (place.low_x + place.high_x) - 50.0, 0.5 * (place.low_y + place.high_y) - 50.0);
+      return (match - since[entity] + (is_state[entity] ? 1 : 0)) / ((1.0 + d / half) * std::pow(2.0, tier[entity]));
+    };
+    for (const bool states : {true, false}) {
+      double before = std::numeric_limits<double>::infinity();
+      for (const PriorityOrder::Item& item : order.order(0)) {
+        if (item.is_state != states) continue;
+        ASSERT_EQ(item.is_state, is_state[item.entity]);
+        ASSERT_LE(urgency(item.entity), before * (1.0 + 1e-5)) << "match " << match << ", entity " << item.entity;
+        before = urgency(item.entity), ++compared;
+      }
+    }
+    for (const PriorityOrder::Item& item : order.fill(0, 120, [](const auto&) { return std::size_t{10}; })) since[item.entity] = match, is_state[item.entity] = false;
+  }
+  EXPECT_GT(compared, 1'000u);
+}
+
 TEST(Priority, TakesOneThatAloneExceedsTheBudget) {
   const auto filter = make_filter("region with tiers(at=0.5) with priority", hundred);
   filter->set_subscription_region(0, {0.0, 0.0, 20.0, 20.0});

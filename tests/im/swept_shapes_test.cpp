@@ -71,7 +71,8 @@ int play_flights(const std::string& expression, const Relevant& rule, const Filt
       if (change.transition == Transition::entered) known.insert({change.subscriber, change.entity});
       if (change.transition == Transition::left) known.erase({change.subscriber, change.entity});
     }
-    for (const double ahead : {0.0, 0.02, 0.05, 0.08, 0.1})
+    // A decision holds until half of the horizon is over, whether there is a match before then or not.
+    for (const double ahead : {0.0, 0.02, 0.05, 0.08, 0.1, 0.15, 0.2})
       for (const auto& [subscriber, view] : subscribers)
         for (const auto& [entity, flyer] : entities) {
           Observer observer;
@@ -135,6 +136,134 @@ TEST(SweptShapes, OfAlternativesAndConjunctionsAreLetThroughToo) {
       EXPECT_GT(play_flights("(aura and sight) with swept(horizon=0.4)", both, settings, flies, seed, 8), 0);
     }
   }
+}
+
+TEST(SweptShapes, OfWhatIsNegatedAreLetThroughToo) {
+  std::map<std::string, int> together;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    FilterSettings settings = settings_for(seed);
+    settings.drag = seed % 2 == 0 ? 0.0 : 0.3;
+    const Relevant region = rule_of("region", settings), aura = rule_of("aura", settings), cone = rule_of("cone", settings), sight = rule_of("sight", settings), grid = rule_of("grid", settings);
+    const std::pair<const char*, Relevant> negations[] = {
+        {"not region", [=](const Observer& s, const Body& u) { return !region(s, u); }},
+        {"not not aura", aura},
+        {"aura and not sight", [=](const Observer& s, const Body& u) { return aura(s, u) && !sight(s, u); }},
+        {"region and not (cone or grid)", [=](const Observer& s, const Body& u) { return region(s, u) && !cone(s, u) && !grid(s, u); }},
+        {"not (aura and not cone) and region", [=](const Observer& s, const Body& u) { return !(aura(s, u) && !cone(s, u)) && region(s, u); }}};
+    for (const auto& [scheme, rule] : negations)
+      for (const char* stages : {" with swept(horizon=0.4)", " with swept(horizon=0.4) with tiers(at=0.5)"})
+        for (const Who flies : {Who::entities, Who::subscribers, Who::both}) together[scheme] += play_flights("(" + std::string(scheme) + ")" + stages, rule, settings, flies, seed, 8);
+  }
+  for (const auto& [scheme, count] : together) EXPECT_GT(count, 20) << scheme;
+}
+
+/// Roles stay as they are on any way, so their negation loses nobody and lets nobody else in.
+TEST(SweptShapes, NegateRolesAsEver) {
+  for (const bool flies : {false, true}) {
+    const auto filter = make_filter("(aura and not team) with swept(horizon=1)", {.world = {0.0, 0.0, 100.0, 100.0}});
+    filter->set_subscription_region(0, around(50.0, 50.0, 10.0));
+    filter->set_subscriber_role(0, {.team = 1});
+    for (Entity id = 0; id < 2; ++id) {
+      filter->set_update_region(id, around(52.0, 50.0, 0.1));
+      filter->set_entity_role(id, {.team = static_cast<std::uint8_t>(1 + id)});
+      if (flies) filter->set_flight(id, {.x = 52.0, .y = 50.0, .velocity_x = 1.0});
+    }
+    std::vector<Entity> seen;
+    for (const Change& change : filter->match()) seen.push_back(change.entity);
+    EXPECT_EQ(seen, std::vector<Entity>{1}) << (flies ? "in flight" : "at rest");
+  }
+}
+
+/// Those who have landed, or were told that they rest, are decided as if nobody had ever flown.
+TEST(SweptShapes, LeaveNothingBehindWhenAllHaveLanded) {
+  std::size_t count = 0;
+  for (const std::string scheme : {"region", "aura", "cone", "sight", "diamond", "grid", "hex", "hierarchical", "hybrid", "strips", "aura and not cone", "not region", "region and not (cone or aura)"})
+    for (const bool by_flights : {false, true}) {
+      SCOPED_TRACE(scheme + (by_flights ? ", told that they rest" : ", by their regions"));
+      const FilterSettings settings = settings_for(5);
+      const auto filter = make_filter("(" + scheme + ") with swept(horizon=0.4)", settings), plain = make_filter(scheme, settings);
+      Random random(17);
+      std::vector<Flyer> entities, subscribers;
+      const auto fly = [&](int round) {
+        const double now = 0.1 * round;
+        filter->set_time(now);
+        entities.clear(), subscribers.clear();
+        for (Entity id = 0; id < 40; ++id) {
+          entities.push_back(draw_flyer(random, 0.05, 0.8, round == 0));
+          entities.back().flight.time = now;
+          filter->set_update_region(id, entities.back().at(now, settings.drag));
+          if (round == 0 || by_flights) filter->set_flight(id, entities.back().flight);
+        }
+        for (Subscriber id = 0; id < 6; ++id) {
+          subscribers.push_back(draw_flyer(random, 0.8, 4.0, round == 0));
+          subscribers.back().flight.time = now;
+          filter->set_subscription_region(id, subscribers.back().at(now, settings.drag));
+          filter->set_heading(id, {1.0, 0.5 * id});
+          if (round == 0 || by_flights) filter->set_subscriber_flight(id, subscribers.back().flight);
+        }
+      };
+      Pairs known, exact;
+      const auto take = [](Filter& from, Pairs& pairs) {
+        for (const Change& change : from.match()) change.transition == Transition::entered ? void(pairs.insert({change.subscriber, change.entity})) : void(pairs.erase({change.subscriber, change.entity}));
+      };
+      fly(0);
+      take(*filter, known);
+      fly(1);
+      take(*filter, known);
+      for (Entity id = 0; id < entities.size(); ++id) plain->set_update_region(id, entities[id].at(0.1, settings.drag));
+      for (Subscriber id = 0; id < subscribers.size(); ++id) plain->set_subscription_region(id, subscribers[id].at(0.1, settings.drag)), plain->set_heading(id, {1.0, 0.5 * id});
+      take(*plain, exact);
+      EXPECT_EQ(known, exact);
+      count += exact.size();
+    }
+  EXPECT_GT(count, 300u);
+}
+
+/// Of one who was told no heading: it looks where it flew.
+TEST(SweptShapes, LetAConeLookAheadAfterALanding) {
+  const auto filter = make_filter("cone(half_angle=60) with swept(horizon=1)", {.world = {0.0, 0.0, 100.0, 100.0}});
+  filter->set_update_region(0, around(38.0, 50.0, 0.1));
+  filter->set_update_region(1, around(49.0, 50.0, 0.1));
+  filter->set_subscription_region(0, around(40.0, 50.0, 10.0));
+  filter->set_subscriber_flight(0, {.x = 40.0, .y = 50.0, .velocity_x = 8.0});
+  for (int tick = 0; tick <= 2; ++tick) filter->set_time(0.1 * tick), filter->match();
+  for (int tick = 3; tick <= 5; ++tick) {
+    filter->set_time(0.1 * tick);
+    filter->set_subscription_region(0, around(42.0, 50.0, 10.0));
+    for (const Change& change : filter->match()) EXPECT_EQ(std::pair(change.entity, change.transition), std::pair(Entity{0}, Transition::left)) << "what it has flown by";
+  }
+  filter->set_subscription_region(0, around(41.0, 50.0, 10.0));
+  std::vector<Entity> entered;
+  for (const Change& change : filter->match())
+    if (change.transition == Transition::entered) entered.push_back(change.entity);
+  EXPECT_EQ(entered, std::vector<Entity>{0}) << "it went back";
+}
+
+/// As long as a cell, to rounding: its high end lies beyond 64 m, where numbers lie twice as far from each other, so in flight its length is a little less or more.
+TEST(SweptShapes, HoldWhoIsExactlyAsLongAsACell) {
+  FilterSettings settings{.world = {0.0, 0.0, 100.0, 100.0}, .cell_size = 1.0};
+  const Relevant rule = rule_of("hierarchical", settings);
+  Random random(3);
+  int together = 0;
+  for (int play = 0; play < 20'000; ++play) {
+    const auto filter = make_filter("hierarchical with swept(horizon=0.4)", settings);
+    Flyer flyer{{.x = between(random, 63.6, 63.9), .y = between(random, 46.0, 54.0), .velocity_x = between(random, -0.5, 0.5), .velocity_y = between(random, -8.0, 8.0)}, {0.5, 0.5}};
+    const Region view = around(50.0, 50.0, 12.5);  // ends within the larger cell that begins at 62 m, before the smaller one that begins at 63 m
+    filter->set_subscription_region(0, view);
+    filter->set_update_region(0, flyer.at(0.0, 0.0));
+    filter->set_flight(0, flyer.flight);
+    const bool is_let_through = !filter->match().empty();
+    for (const double ahead : {0.0, 0.05, 0.1, 0.15, 0.2}) {
+      Observer observer;
+      static_cast<Region&>(observer) = view;
+      Body body;
+      static_cast<Region&>(body) = flyer.at(ahead, 0.0);
+      if (!rule(observer, body)) continue;
+      ++together;
+      ASSERT_TRUE(is_let_through) << "play " << play << ", " << ahead << " s ahead";
+    }
+  }
+  EXPECT_GT(together, 1'000);
 }
 
 TEST(SweptShapes, LeaveTheDiscOfOneWhoRestsExact) {
