@@ -1,6 +1,8 @@
 // The stage `swept` behind every scheme: whoever is with whom anywhere on the way is let through, whatever the shape.
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "im/stages/flight.h"
 #include "tests/im/long_play.h"
 
@@ -264,6 +266,46 @@ TEST(SweptShapes, HoldWhoIsExactlyAsLongAsACell) {
     }
   }
   EXPECT_GT(together, 1'000);
+}
+
+/// Over 3,600 pairs of whom all fly at up to 11 m/s, 3.2 m on the way of a horizon at most: pairs let through for each pair who are with each other on the way.
+TEST(SweptShapes, LetLittleMoreThroughThanComesTogetherOnTheWay) {
+  for (const std::string& scheme : schemes_of_places()) {
+    std::size_t let_through = 0, together = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      const FilterSettings settings = settings_for(seed);
+      const auto filter = make_filter(scheme + " with swept(horizon=0.4)", settings);
+      const Relevant rule = rule_of(scheme, settings);
+      Random random(seed);
+      std::vector<Flyer> entities, subscribers;
+      for (Entity id = 0; id < 60; ++id) {
+        entities.push_back(draw_flyer(random, 0.05, 0.4, true));
+        filter->set_update_region(id, entities[id].at(0.0, settings.drag)), filter->set_flight(id, entities[id].flight);
+      }
+      for (Subscriber id = 0; id < 10; ++id) {
+        subscribers.push_back(draw_flyer(random, 2.0, 4.0, true));
+        filter->set_subscription_region(id, subscribers[id].at(0.0, settings.drag)), filter->set_subscriber_flight(id, subscribers[id].flight), filter->set_heading(id, {1.0, 0.0});
+      }
+      let_through += filter->match().size();
+      for (const Flyer& subscriber : subscribers)
+        for (const Flyer& entity : entities) {
+          const auto is_with = [&](int part) {
+            Observer observer;
+            static_cast<Region&>(observer) = subscriber.at(0.01 * part, settings.drag);
+            observer.heading = {1.0, 0.0};
+            Body body;
+            static_cast<Region&>(body) = entity.at(0.01 * part, settings.drag);
+            return rule(observer, body);
+          };
+          for (int part = 0; part <= 40; ++part)
+            if (is_with(part) && ++together) break;
+        }
+    }
+    const double ratio = static_cast<double>(let_through) / static_cast<double>(together);
+    std::cout << scheme << ": " << let_through << " pairs let through, " << together << " together, " << ratio << '\n';
+    EXPECT_GE(ratio, 1.0) << scheme;
+    EXPECT_LT(ratio, 4.0) << scheme;
+  }
 }
 
 TEST(SweptShapes, LeaveTheDiscOfOneWhoRestsExact) {
