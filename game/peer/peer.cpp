@@ -272,6 +272,7 @@ void Peer::commit(double until) {
   if (keeps_changes_) note_changed();
   for (PeerNumber from = 0; from < arrivals_.size(); ++from) complete_flown(arrivals_[from], from);
   correct_doubtful();
+  doubts_.clear();
   std::vector<Hold> holds = portion_.holds();
   const auto is_own = [&](physics::Partner p) { return p < physics::partner::field_parts && roles_[p] == own; };
   std::erase_if(holds, [&](const Hold& hold) { return !is_own(hold.low) && !is_own(hold.high); });

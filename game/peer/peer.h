@@ -118,6 +118,8 @@ class Peer {
   const std::vector<std::uint32_t>& owned() const { return owned_; }
   const std::vector<std::uint32_t>& ghosts() const { return ghosts_; }
   BodyState state(std::uint32_t body) const { return portion_.state(body); }
+  /// Where it certainly was: at the end of the window that was judged, or at its start if it is a ghost whose owner tells another story of that window. Once committed, now.
+  Vector2 known_place(std::uint32_t body) const;
   /// All in rest contact or in one jam with it, directly or through others, itself first.
   std::vector<std::uint32_t> group_of(std::uint32_t body) const { return portion_.group_of(body); }
   const physics::World& world() const { return portion_.world(); }

@@ -167,6 +167,13 @@ bool Peer::hears_truth() {
   return true;
 }
 
+Vector2 Peer::known_place(std::uint32_t body) const {
+  const auto found = std::lower_bound(ghosts_.begin(), ghosts_.end(), body);
+  const auto place = static_cast<std::size_t>(found - ghosts_.begin());
+  const bool is_doubtful = found != ghosts_.end() && *found == body && place < doubts_.size() && doubts_[place] < infinity && !portion_.was_gone(body);
+  return is_doubtful ? portion_.motion_before(body).at(start_).position : portion_.world().position({body});
+}
+
 const Verdict& Peer::judge() {
   Verdict& verdict = verdicts_[number_];
   const double halo = halos_[number_], needed = needed_halo();

@@ -152,5 +152,37 @@ TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
   EXPECT_EQ(bytes_of(two.left.state(body)), before);
 }
 
+/// A ghost is hit by somebody who is too far off to be known here, far from all that the peer owns: the window stands, though the ghost is elsewhere in this peer's run.
+TEST(Peer, KnowsOfAGhostThatWentAstrayWhereItWasWhenTheWindowBegan) {
+  physics::World world(physics::test::rink_of(4.0, 2.0));
+  const Vector2 ghost_place(2.2, 1.0);
+  const std::uint32_t ghost = world.add(physics::PuckSpec{.position = ghost_place, .velocity = {0.5, 0.0}, .radius = 0.03}).index;
+  world.add(physics::PuckSpec{.position = {2.9, 1.0}, .velocity = {-40.0, 0.0}, .radius = 0.03});
+  world.add(physics::PuckSpec{.position = {0.5, 0.5}, .radius = 0.03});
+  const Division division(world.spec().field, {{{0.0, 0.0, 2.0, 2.0}, 0}, {{2.0, 0.0, 4.0, 2.0}, 1}}, 2);
+  Peer left(world.spec(), division, 0, world.body_count(), 0.3), right(world.spec(), division, 1, world.body_count(), 0.3);
+  for (Peer* peer : {&left, &right}) {
+    for (std::uint32_t body = 0; body < world.body_count(); ++body) peer->consider(body, physics::Portion::state_in(world, body));
+    peer->begin(0.02), peer->play();
+  }
+  left.hear(1, right.claims_for(0)), right.hear(0, left.claims_for(1));
+  left.hear(1, right.judge()), right.hear(0, left.judge());
+  ASSERT_EQ(left.conclude(), Outcome::final);
+  ASSERT_EQ(right.conclude(), Outcome::final);
+  const Vector2 here = left.world().position({ghost}), there = right.world().position({ghost});
+  EXPECT_GT((here - there).norm(), 0.05) << "it went astray";
+  EXPECT_EQ(left.known_place(ghost), ghost_place);
+  EXPECT_EQ(right.known_place(ghost), there);
+  left.hear(1, right.arrivals_for(0, 0.04)), right.hear(0, left.arrivals_for(1, 0.04));
+  left.commit(0.04), right.commit(0.04);
+  for (const Peer* peer : {&left, &right}) {
+    const bool has_it = peer->owns(ghost) || std::ranges::binary_search(peer->ghosts(), ghost);
+    if (has_it) {
+      EXPECT_EQ(peer->known_place(ghost), there) << peer->number();
+    }
+  }
+  EXPECT_TRUE(left.owns(ghost) || std::ranges::binary_search(left.ghosts(), ghost));
+}
+
 }  // namespace
 }  // namespace rink::peer::test

@@ -100,9 +100,7 @@ class InterestPlay {
     std::uint64_t missing = 0, extra = 0;
     std::string wrong;                                  ///< the first ones
   };
-  /// By the true states at the windows' ends: a body that `relevant` is at two ends of windows one after the other must be seen at the second, and one that is not at five
-  /// may not be: in some runs, by the timing of their threads,
-  /// a body that leaves a view is seen at the fourth end after it was there last.
+  /// By the true states at the windows' ends: a body that `relevant` is at two ends of windows one after the other must be seen at the second, and one that is not at four may not be.
   Recount recount(const im::Relevant& relevant, const im::Relevant& stays) const {
     std::vector<im::Role> roles(places_.at(0).size());
     for (const Entity& entity : game_.start().entities()) roles[entity.id.index].is_always_relevant = RelevantKinds::of_bits(terms_.interest.always).has(entity.kind);
@@ -123,7 +121,7 @@ class InterestPlay {
         const bool is_seen = std::binary_search(sight.bodies.begin(), sight.bodies.end(), body);
         bool must = true, may = false;
         for (std::uint64_t back = 0; back < 2; ++back) must = must && near(sight, sight.window - back, body, -doubt);
-        for (std::uint64_t back = 0; back < 5; ++back) may = may || near(sight, sight.window - back, body, doubt);
+        for (std::uint64_t back = 0; back < 4; ++back) may = may || near(sight, sight.window - back, body, doubt);
         all.missing += must && !is_seen, all.extra += is_seen && !may;
         if (((must && !is_seen) || (is_seen && !may)) && all.wrong.size() < 1000)
           all.wrong += std::string(is_seen ? "extra" : "missing") + ": body " + std::to_string(body) + " at peer " + std::to_string(sight.peer) + " in window " + std::to_string(sight.window) + ", which believes its bat to be " + std::to_string(1e3 * off_by(sight)) + " mm off\n";

@@ -106,7 +106,8 @@ void SenderInterest::match(const peer::Peer& peer) {
   std::vector<std::uint32_t> here = peer.owned();
   here.insert(here.end(), peer.ghosts().begin(), peer.ghosts().end());
   const physics::World& world = peer.world();
-  for (const std::uint32_t body : here) filter_->set_update_region(body, bounding_box(world.position({body}), world.half_extent({body})));
+  for (const std::uint32_t body : peer.owned()) filter_->set_update_region(body, bounding_box(world.position({body}), world.half_extent({body})));
+  for (const std::uint32_t body : peer.ghosts()) filter_->set_update_region(body, bounding_box(peer.known_place(body), world.half_extent({body})));
   for (const std::uint32_t body : here) {
     if (is_here_[body] == 0) filter_->set_entity_role(body, body_roles_[body]);
     is_here_[body] = 2;
