@@ -1,4 +1,5 @@
 // Boost.Geometry's rtree as a matcher of rectangles, static and moving.
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // which Boost.Geometry 1.74 itself includes
 #include <boost/iterator/function_output_iterator.hpp>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
