@@ -206,7 +206,10 @@ TEST(SweptShapes, LeaveNothingBehindWhenAllHaveLanded) {
       };
       Pairs known, exact;
       const auto take = [](Filter& from, Pairs& pairs) {
-        for (const Change& change : from.match()) change.transition == Transition::entered ? void(pairs.insert({change.subscriber, change.entity})) : void(pairs.erase({change.subscriber, change.entity}));
+        for (const Change& change : from.match()) {
+          if (change.transition == Transition::entered) pairs.insert({change.subscriber, change.entity});
+          else pairs.erase({change.subscriber, change.entity});
+        }
       };
       fly(0);
       take(*filter, known);

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "rti/second_core.h"
@@ -136,13 +139,20 @@ TEST(ThreadedMatching, ASecondCoreThatWasNeverNeededEnds) {
   const auto thread_count = [] {
     return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
   };
+  // A thread that has been joined is listed for some microseconds more, and the thread sanitizer starts one of its own beside the first.
+  const auto comes_to = [&](std::ptrdiff_t count) {
+    for (int waits = 0; waits < 5000 && thread_count() != count; ++waits) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return thread_count() == count;
+  };
+  { const rti::SecondCore first; }
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const auto before = thread_count();
   for (int i = 0; i < 50; ++i) {
     const rti::SecondCore idle;
-    EXPECT_EQ(thread_count(), before + 1);
+    EXPECT_TRUE(comes_to(before + 1));
     EXPECT_EQ(idle.task_count(), 0u);
   }
-  EXPECT_EQ(thread_count(), before);
+  EXPECT_TRUE(comes_to(before));
 }
 
 TEST(ThreadedMatching, EveryTaskHasRunWhenItsWaitReturns) {
