@@ -9,6 +9,7 @@
 #include <string>
 
 #include "game/control/key_log.h"
+#include "game/control/seed_flag.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -99,7 +100,7 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember([] { auto kinds = game::player_kinds(); kinds.push_back("random"); return kinds; }()))
       ->capture_default_str();
   app.add_option("--scene", options.scene, "the server's scene, of which players know the rules: goals, drag, thrust")->capture_default_str();
-  app.add_option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")->check(game::seed_number())->capture_default_str();
   app.add_option("--view", options.view_fraction, "area of a bot's interest as a fraction of the field's; 1 or more: everything")->check(game::number_from(1e-9, 1e6))->capture_default_str();
   app.add_option("--view-area", options.view_area, "area of a bot's view [m^2] instead; 0: as --view says")->check(game::number_from(0.0, game::view_area_max))->capture_default_str();
   app.add_option("--view-margin", options.view_margin, "how far the declared region reaches beyond the view [m]; it is declared anew when the bat has moved by half of that")

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "game/control/seed_flag.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
@@ -112,7 +113,7 @@ int main(int count, char** values) {
   app.add_option("--matches", options.matches, "to play, with a rematch between")->check(game::number_from(1, 1000))->capture_default_str();
   app.add_option("--duration", options.duration_s, "seconds after which to leave; 0: when all matches are over")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
   app.add_option("--frame-rate", options.frame_hz, "frames per second of each client")->check(game::number_from(10.0, 1000.0))->capture_default_str();
-  app.add_option("--seed", options.seed, "of what they do")->capture_default_str();
+  app.add_option("--seed", options.seed, "of what they do")->check(game::seed_number())->capture_default_str();
   app.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") + game::exit_status_help);
   try {
     app.parse(count, values);

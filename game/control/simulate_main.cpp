@@ -12,6 +12,7 @@
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/playing.h"
+#include "game/control/seed_flag.h"
 #include "game/control/simulate_progress.h"
 #include "game/control/simulate_report.h"
 #include "game/model/scene_file.h"
@@ -170,7 +171,7 @@ int main(int argc, char** argv) {
                              ->excludes(keys)
                              ->check([](const std::string& name) { return game::is_player_kind(name) ? std::string() : name + ": expected one of " + allowed_players(); });
   app.add_option("--record", options.record, "write the game to this key log: scene, keys and final hash; rink replay plays it again, and so do --keys and rink serve --keys");
-  app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)");
+  app.add_option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)")->check(game::seed_number());
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density, at most 100000 (default: as it is)")->check(CLI::Range(0u, 100'000u));
   app.add_option("--engine", options.engine.engine, "what moves the bodies: " + listed(physics::engine_names()) + " (docs/physics.md, docs/paper-engine.md)")->capture_default_str();
   CLI::Option* integrator =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "game/control/seed_flag.h"
 #include "game/net/exit_status.h"
 #include "game/net/flags.h"
 #include "game/net/relevant_kinds.h"
@@ -41,7 +42,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--bats", options.bats, "the same scene with so many bats, at its own density; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--bat-count", options.bat_count, "so many bats on the same field instead; 0: as it is")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--puck-count", options.puck_count, "so many pucks on the same field instead; 0: as it is")->check(number_from(0, pucks_max))->capture_default_str();
-  app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the scene's populations; 0: the scene's own")->check(seed_number())->capture_default_str();
   CLI::Option* const file = app.add_option("--federation", options.federation_file, "TOML file with federation, fom, and either address and port or a list of nodes, who then are waited for and nobody else let in (docs/rti.md)");
   app.add_option("--address", options.address, "to listen on")->check(not_empty())->excludes(file)->capture_default_str();
   app.add_option("--port", options.port, "to listen on; 0: any free one, printed")->excludes(file)->capture_default_str();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "game/control/seed_flag.h"
 #include "game/net/flags.h"
 #include "game/net/peer/playing_peer.h"
 #include "game/net/peer/viewing_options.h"
@@ -71,7 +72,7 @@ inline void add_options(CLI::App& app, PlayOptions& options) {
   app.add_flag("--mute", options.is_muted, "no sound; M changes it");
   app.add_flag("--figures", options.shows_figures, "show frames per second and the connection's figures; F3 changes it");
   app.add_option("--settings", options.settings_file, "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")->type_name("FILE");
-  app.add_option("--seed", options.seed, "of the bots")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the bots")->check(game::seed_number())->capture_default_str();
   app.add_option("--script", options.script, "press keys and take pictures as FILE says: lines TIME down|up|tap KEY, TIME text WORDS, TIME picture FILE.png, TIME end")->type_name("FILE");
   const auto screenshot = app.add_option("--screenshot", options.screenshot, "write the picture at --at to FILE.png and end")->type_name("FILE");
   app.add_option("--at", options.at_s, "seconds after the start")->needs(screenshot)->check(game::number_from(0.0, game::seconds_max))->capture_default_str();

@@ -135,6 +135,11 @@ TEST_F(SimulateCommand, EndsWithStatus2AndOneLineOnBadInput) {
   EXPECT_THAT(said_, HasSubstr("--until"));
   EXPECT_EQ(simulate("crowd --until 1e300"), 2);
   EXPECT_THAT(said_, HasSubstr("at most 1e9 s"));
+  for (const char* seed : {"-1", "1.5", "18446744073709551616", "x"}) {
+    EXPECT_EQ(simulate(std::string("crowd --until 0 --seed ") + seed), 2) << seed;
+    EXPECT_THAT(said_, HasSubstr("is not a whole number from 0 to 18446744073709551615")) << seed;
+  }
+  EXPECT_EQ(simulate("crowd --until 0 --seed 18446744073709551615"), 0) << said_;
   EXPECT_EQ(simulate("no-such-preset --until 1"), 2);
   EXPECT_EQ(simulate("match --until 1 --keys " + file("missing")), 2);
   EXPECT_EQ(simulate("match --until 1 --states " + file("no/such/folder.csv")), 2);

@@ -72,5 +72,21 @@ TEST(PapersEngine, WorksAndDissipatesAsTheExactOneDoesAsFramesShrink) {
   EXPECT_NEAR(simulator->dissipated(), world.dissipated(), 1e-5);
 }
 
+/// As under the exact engine: who is put back into play begins anew.
+TEST(PaperEngines, PutAPuckBackWithoutTheSpinThatItScoredWith) {
+  WorldSpec spec = test::rink_of(4.0, 2.0);
+  spec.field.goal_width = 0.5;
+  spec.surface_friction = SurfaceFriction{PairTable(1, 0.5), RestitutionTable(1, 0.5)};
+  for (const char* engine : {"exact", "paper", "naive"}) {
+    const auto simulator = make_simulator(spec, {.engine = engine});
+    const BodyId puck = simulator->add(PuckSpec{.position = {3.5, 1.0}, .velocity = {2.0, 0.0}, .radius = 0.0625, .mass = 0.5, .spin = 10.0});
+    ASSERT_TRUE(simulator->advance(5.0)) << engine;
+    EXPECT_EQ(simulator->spin(puck), 10.0) << engine;
+    simulator->place(puck, {2.0, 1.0}, {3.0, 4.0});
+    EXPECT_EQ(simulator->spin(puck), 0.0) << engine;
+    EXPECT_NEAR(simulator->kinetic_energy(), 0.5 * 0.5 * 25.0, 1e-14) << engine;
+  }
+}
+
 }  // namespace
 }  // namespace rink::physics

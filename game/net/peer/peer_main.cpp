@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "game/control/key_log.h"
+#include "game/control/seed_flag.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -345,7 +346,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--pace", options.pace, "realtime: by the clock; free: as fast as they can")->check(CLI::IsMember({"realtime", "free"}))->capture_default_str();
   app.add_option("--record", options.record, "write everybody's keys and the final hash to this key log; rink replay plays it again, and so does rink simulate --keys");
   app.add_option("--report", options.report, "file for what this peer did, as JSON (default: the standard output)");
-  app.add_option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")->check(game::seed_number())->capture_default_str();
   app.add_option("--bats", options.bats, "scale the crowd to so many bats at constant density; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
   app.add_option("--bat-count", options.bat_count, "so many bats on the scene's own field; 0: as it is")->check(CLI::Range(0u, game::bats_max))->capture_default_str();
   app.add_option("--puck-count", options.puck_count, "likewise pucks")->check(CLI::Range(0u, game::pucks_max))->capture_default_str();

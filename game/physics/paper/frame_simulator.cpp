@@ -103,6 +103,7 @@ void FrameSimulator::place(BodyId id, const Vector2& position, const Vector2& ve
   puck.is_stopped = false;
   puck.start = {position, velocity};
   puck.start_time = now_;
+  puck.spin = 0.0;
   introduced_ += energy_of(puck, velocity);
   ++counters_.bodies_touched;
   plan(puck);
