@@ -49,10 +49,9 @@ void read_link(ExperimentReader& reader, rti::LinkConditions& into) {
   if (const auto queue = reader.whole_number("queue_bytes", 1500, 1'000'000'000)) into.queue_bytes = static_cast<std::size_t>(*queue);
 }
 
-/// `up` is what clients send, `down` what the server sends; what neither says is as it is for both.
+/// `up` is what clients send, `down` what the server sends; what neither says is as it is for both, and what nobody says stays as it was.
 void read_directions(ExperimentReader& reader, rti::LinkConditions& up, rti::LinkConditions& down) {
-  read_link(reader, up);
-  down = up;
+  for (rti::LinkConditions* direction : {&up, &down}) read_link(reader, *direction);
   const auto read = [&reader](const char* key, rti::LinkConditions& into) {
     if (auto direction = reader.table(key)) {
       read_link(*direction, into);

@@ -66,7 +66,10 @@ direction = "down"
   down.loss = {.to_bad = 0.1, .to_good = 0.5, .loss_good = 0.01, .loss_bad = 0.9};
   EXPECT_EQ(experiment.network.to_listener, up);
   EXPECT_EQ(experiment.network.from_listener, down);
-  EXPECT_EQ(experiment.network.of(3, rti::LinkDirection::to_listener).latency_ns, 80'000'000);
+  rti::LinkConditions worse_up = up, worse_down = down;
+  worse_up.latency_ns = worse_down.latency_ns = 80'000'000;
+  EXPECT_EQ(experiment.network.of(3, rti::LinkDirection::to_listener), worse_up);
+  EXPECT_EQ(experiment.network.of(3, rti::LinkDirection::from_listener), worse_down) << "all but the latency is as for every other link";
   EXPECT_EQ(experiment.network.of(4, rti::LinkDirection::to_listener), up);
   EXPECT_EQ(experiment.network.seed, 9u);
   EXPECT_TRUE(experiment.network_carries_datagrams);
