@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "game/control/key_log.h"
+#include "game/control/replay.h"
 #include "game/model/random_stream.h"
 #include "rink_scenes.h"
 
@@ -275,6 +276,20 @@ TEST(Preset, OfTheCrowdHasTheDensityOfTheTargets) {
   EXPECT_EQ(scene.bodies.bats.size(), 100u);
   EXPECT_GT(scene.bodies.posts.size(), 0u);
   EXPECT_FALSE(scene.rules.goals_to_win);
+}
+
+/// A key of the very instant at which a game ends belongs to it.
+TEST(Records, KeepAllThatWasFeltUpToTheirEndAndNothingThatWasNot) {
+  const Scene scene = preset("match");
+  Game game(scene);
+  std::vector<InputEvent> keys;
+  for (const InputEvent& key : {InputEvent{0.25, 0, InputKind::key_down, Key::up}, InputEvent{0.5, 1, InputKind::key_down, Key::left}, InputEvent{0.75, 0, InputKind::key_up, Key::up}})
+    keys.push_back(game.submit(key));
+  game.advance(0.5);
+  const KeyLog log = log_of(game, scene, "text", keys);
+  EXPECT_EQ(log.until, 0.5);
+  ASSERT_EQ(log.events.size(), 2u);
+  EXPECT_EQ(log.events[1], keys[1]);
 }
 
 }  // namespace

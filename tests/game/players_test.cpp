@@ -152,6 +152,33 @@ TEST(PlayerRules, AreThoseOfTheOwnBatAndThePucks) {
   }
 }
 
+/// Eight decisions at rest under pressed keys, then six and the one at hand of the same random keys, then the player's own for as long again.
+TEST(Hands, TryRandomKeysForAWhileWhereTheyAreStuckAndThenThePlayersAgain) {
+  Hands hands;
+  RandomStream random(7);
+  const KeysHeld wanted = keys_towards(1, 0);
+  std::vector<bool> follows;
+  std::uint32_t own = 0, others = 0;
+  for (int decision = 0; decision < 1500; ++decision) {
+    const KeysHeld held = hands.hold(wanted, {0.0, 0.0}, random);
+    follows.push_back(held == wanted);
+    ++(held == wanted ? own : others);
+  }
+  // Of nine draws one is the player's own key, one none at all, after which nothing is stuck until a key is held.
+  for (std::size_t begin = 0; begin + 1 < follows.size();) {
+    std::size_t end = begin;
+    while (end < follows.size() && follows[end] == follows[begin]) ++end;
+    if (!follows[begin] && end < follows.size()) {
+      EXPECT_EQ(end - begin, 7u) << "at decision " << begin;
+    } else if (begin > 0 && end < follows.size()) {
+      EXPECT_GE(end - begin, 7u) << "at decision " << begin;
+    }
+    begin = end;
+  }
+  EXPECT_GT(own, others / 2);
+  EXPECT_GT(others, 300u);
+}
+
 TEST(Reach, EndsAtTheWallsAndWhereBatsKeepToTheirHalfAtTheHalfwayLine) {
   PlayerRules rules{.field = {.length = 4.0, .width = 2.0}};
   const Vector2 half(0.1, 0.2);

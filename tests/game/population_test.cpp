@@ -1,6 +1,7 @@
 // Seeded populations: equal from equal seeds, never overlapping, as dense as discs can be, and scaled at constant density.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -67,6 +68,16 @@ TEST(Population, HasTheSpeedsOfItsDistribution) {
   const auto [maxwell, maxwell_square] = speed_moments("maxwell");
   EXPECT_NEAR(maxwell, 2.0, 5.0 * std::sqrt(4.0 * (4.0 / std::numbers::pi - 1.0) / 1000.0));
   EXPECT_NEAR(maxwell_square, 16.0 / std::numbers::pi, 5.0 * 16.0 / std::numbers::pi / std::sqrt(1000.0));
+}
+
+TEST(ScaledScenes, KeepWhatWasPlacedByHandAtTheSamePartOfTheField) {
+  const Scene scene = parse_scene(scene_text("crowd") + "\n[[post]]\nname = \"own\"\nposition = [3.0, 2.0]\nradius = 0.1\n", "more.toml");
+  const Scene scaled = scaled_to_bats(scene, 400);
+  const double factor = scaled.world.field.length / scene.world.field.length;
+  EXPECT_NEAR(factor, 2.0, 1e-12) << "four times as many";
+  const auto own = [](const Post& post) { return post.name == "own"; };
+  ASSERT_EQ(std::ranges::count_if(scaled.bodies.posts, own), 1);
+  EXPECT_NEAR((std::ranges::find_if(scaled.bodies.posts, own)->body.position - factor * Vector2(3.0, 2.0)).norm(), 0.0, 1e-12);
 }
 
 TEST(Population, KeepsDensityAndShapeWhenTheCrowdIsScaled) {

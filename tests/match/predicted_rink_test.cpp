@@ -144,6 +144,28 @@ TEST(APredictedRink, GlidesToABatHoweverWrongItWasAndJumpsToAPuckThatIsFarOff) {
   EXPECT_EQ(rink.puck_corrections().visible_count, 1u);
 }
 
+TEST(APredictedRink, MakesUpForASecondMistakeWithoutForgettingTheFirst) {
+  const Scene scene = match_scene();
+  Game game(scene);
+  ToldRink told = told_by(game);
+  PredictedRink rink(scene, 0);
+  rink.hear(told);
+  rink.advance(0.0, 0.0);
+  double now = 0.0;
+  for (const double step : {-0.1, -0.05, 0.08}) {
+    now += 0.03;
+    rink.advance(now, 0.0);
+    const Vector2 shown = rink.bats()[0].position;
+    told.time = now;
+    told.bats[0].position.y() += step;
+    rink.hear(told);
+    rink.advance(now, 0.0);
+    EXPECT_LT((rink.bats()[0].position - shown).norm(), 1e-12) << "a jump at " << now;
+  }
+  rink.advance(now + 0.1, 0.0);
+  EXPECT_NEAR(rink.bats()[0].position.y(), told.bats[0].position.y(), 1e-12);
+}
+
 TEST(APredictedRink, LetsAPucksTimeRunAtMostThreeTimesAndAtLeastThreeTenthsAsFast) {
   Scene scene = match_scene();
   scene.bodies.pucks[0].body.velocity = {0.0, 0.0};

@@ -65,5 +65,19 @@ TEST(ANoise, ComesFromWhereAlongTheFieldThePuckIsAndIsAsLoudAsItTurned) {
   EXPECT_EQ(noise_of_an_impact({1.0, 1.0}, 6.0).strength, 1.0);
 }
 
+TEST(ANoise, OfAGoalComesFromTheEndWhereItFell) {
+  for (const bool is_lefts : {true, false}) {
+    MatchSight sight;
+    sight.phase = MatchPhase::playing;
+    NoiseDetector ears;
+    ears.listen(sight);
+    (is_lefts ? sight.score.left : sight.score.right) = 1;
+    ears.listen(sight);
+    ASSERT_EQ(sight.noises.size(), 1u);
+    EXPECT_EQ(sight.noises[0].kind, Noise::Kind::goal);
+    EXPECT_EQ(sight.noises[0].place, is_lefts ? 1.0 : 0.0) << "the left team scores at the right end";
+  }
+}
+
 }  // namespace
 }  // namespace rink::game

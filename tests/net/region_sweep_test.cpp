@@ -44,6 +44,22 @@ TEST(RegionSweep, HoldsWhoIsThrownByAnImpactRightAfterTheTick) {
   }
 }
 
+TEST(RegionSweep, HoldsForAsManyTicksAsItWasSweptAndForNoneAfterAnImpact) {
+  constexpr double tick_s = 1.0 / 32.0;
+  for (const std::uint32_t ticks : {1u, 2u, 5u}) {
+    physics::World world(physics::test::rink_of(10.0, 2.0));
+    const physics::BodyId puck = world.add(physics::PuckSpec{.position = {1.0, 1.0}, .velocity = {1.0, 0.0}, .radius = 0.1});
+    RegionSweep sweep(ticks, tick_s);
+    sweep.look_at(world);
+    RegionSweep::Swept swept;
+    sweep.region(world, puck, swept);
+    for (std::uint32_t tick = 0; tick <= ticks; ++tick) {
+      world.advance(tick_s * tick);
+      EXPECT_EQ(sweep.still_holds(world, puck, swept), tick < ticks) << tick << " of " << ticks;
+    }
+  }
+}
+
 TEST(RegionSweep, WhatIsDecidedAtATickHoldsUntilTheNextWhateverIsHit) {
   const Scene scene = small_crowd();
   Game game(scene);
