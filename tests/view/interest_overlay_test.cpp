@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rink::view {
 namespace {
@@ -71,6 +72,16 @@ TEST(InterestOverlay, AsksOfBatsInTurnOrOfWhatWasPicked) {
   EXPECT_EQ(asked_thing(MatchSight{}, {}), nullptr);
   EXPECT_EQ(thing_at(sight, {10.56, 5.0}, 0.1), 9u);
   EXPECT_EQ(thing_at(sight, {15.0, 5.0}, 0.1), std::nullopt);
+}
+
+TEST(InterestOverlay, AsksOfTheNearestThingUnderAClickInWhateverOrderTheyCome) {
+  MatchSight sight;
+  for (const bool is_nearest_first : {true, false}) {
+    sight.things = {{.id = 1, .position = {1.0, 1.0}, .half_extent = {0.1, 0.1}}, {.id = 2, .position = {1.5, 1.0}, .half_extent = {0.1, 0.1}}};
+    if (!is_nearest_first) std::swap(sight.things[0], sight.things[1]);
+    EXPECT_EQ(thing_at(sight, {1.2, 1.0}, 0.5), 1u);
+    EXPECT_EQ(thing_at(sight, {1.3, 1.0}, 0.5), 2u);
+  }
 }
 
 }  // namespace
