@@ -145,6 +145,11 @@ TEST(ExperimentFile, OneAtATimeEachParameterIsSweptAlone) {
   EXPECT_EQ(std::count_if(cells.begin(), cells.end(), [](const Cell& cell) { return cell.parameters.tick_rate_hz == 60.0 && name_of(cell).find("-rate60-") != std::string::npos; }), 3);
 }
 
+TEST(ExperimentFile, OneAtATimeBatsAndPucksAreSweptAloneToo) {
+  const auto experiment = parse_experiment(minimal + "schemes=['grid']\nbaseline_scheme='grid'\ndesign='one_at_a_time'\ntick_rate_hz=[20,10]\nbats=[20,40,80]\npucks=[100,200]", "x.toml", {});
+  EXPECT_EQ(cells_of(experiment).size(), 1u + 1u + 2u + 1u) << "the standard, a rate, two crowds, more pucks";
+}
+
 TEST(ExperimentFile, EveryParameterMayBeAListAndNonsenseInItIsNamedWithItsLine) {
   for (const ParameterKind& kind : parameter_kinds()) {
     const std::string key = kind.key, good = kind.is_whole ? "[1, 2]" : "[0.5, 1]";

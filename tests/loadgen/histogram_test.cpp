@@ -99,6 +99,14 @@ TEST(Histogram, MergingEqualsRecordingEverythingInOne) {
   EXPECT_NEAR(merged.mean_s().value(), histogram_of(both).mean_s().value(), 1e-9);
 }
 
+TEST(Histogram, MergedIntoAnEmptyOneIsTheOther) {
+  const Histogram other = histogram_of(log_uniform_latencies(13, 500));
+  Histogram merged;
+  merged.merge(other);
+  EXPECT_EQ(merged.to_json(), other.to_json());
+  EXPECT_GT(other.to_json().at("min_s").get<double>(), 0.0);
+}
+
 TEST(Histogram, OutOfRangeDurationsCountAtTheEndsAndTheMaximumStaysExact) {
   Histogram histogram;
   histogram.record(-1.0, 10);

@@ -99,5 +99,26 @@ TEST_F(JournalFile, AWholeLineThatIsNoRunIsNamed) {
   EXPECT_THROW(read_journal("/nowhere/runs.jsonl"), OutputError);
 }
 
+/// Whoever goes on with an experiment must have the same text, the same scene and the same recorded keys.
+TEST(ExperimentIdentity, IsThatOfItsTextItsSceneAndItsKeys) {
+  const test::TemporaryFolder folder("identity");
+  const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text; };
+  Experiment experiment = small_experiment();
+  experiment.text = "name = 'x'";
+  experiment.scene = (folder / "scene.toml").string(), experiment.players = (folder / "game.keys").string();
+  write("scene.toml", "one"), write("game.keys", "two");
+  const std::string identity = identity_of(experiment);
+  EXPECT_EQ(identity_of(experiment), identity);
+  for (const char* file : {"scene.toml", "game.keys"}) {
+    const std::string before = file == std::string("game.keys") ? "two" : "one";
+    write(file, "other");
+    EXPECT_NE(identity_of(experiment), identity) << file;
+    write(file, before.c_str());
+    EXPECT_EQ(identity_of(experiment), identity);
+  }
+  experiment.text += " ";
+  EXPECT_NE(identity_of(experiment), identity);
+}
+
 }  // namespace
 }  // namespace rink::loadgen

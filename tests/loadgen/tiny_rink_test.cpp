@@ -117,6 +117,14 @@ TEST_F(TinyRink, FlappingIsThePartOfEntriesThatFollowALeavingWithinASecond) {
   EXPECT_DOUBLE_EQ(*judged().flapping_fraction, 1.0 / 3.0);
 }
 
+/// What left just before the span and comes back in it flaps, too; what came before it is no entry.
+TEST_F(TinyRink, FlappingLooksBackBeyondTheSpan) {
+  const std::pair<double, bool> steps[] = {{0.5, true}, {1.4, false}, {1.9, true}, {2.5, false}};
+  for (const auto& [instant_s, is_in] : steps) bots_.bots[0].changes.push_back({instant_s, 100 + flying, is_in});
+  server_.from_s = 1.5;
+  EXPECT_DOUBLE_EQ(*judged().flapping_fraction, 1.0);
+}
+
 TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
   const auto believe = [&](std::uint32_t body, std::uint32_t bytes, Vector2 matched, Vector2 displayed) {
     bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});
