@@ -13,6 +13,7 @@ namespace rink::game {
 
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
     : model_(model), settings_(settings), mirror_(model), ambassador_(fom, *this) {
+  if (settings.extrapolates) mirror_.extrapolate();
   ambassador_.join(settings.federation, settings.name, settings.only_watches ? watcher_federate_type : player_federate_type);
   // In one frame with the join, so that the server cannot offer a seat before we listen.
   for (const rti::InteractionClassHandle interaction : {model_.key_down, model_.key_up, model_.update}) ambassador_.publish_interaction_class(interaction);

@@ -28,6 +28,7 @@ struct ServeOptions {
   bool is_time_managed = false, has_second_core = false;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
   double spread = 0.0;
+  double threshold = threshold_default;  ///< m
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
   double key_limit_per_s = key_limit_default;  ///< of each player; 0: none
 };
@@ -65,6 +66,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_flag("--second-core", options.has_second_core, "another thread takes half of each match of interest that is large enough to gain by it (docs/im.md); the decisions are the same");
   app.add_option("--sweep-ticks", options.sweep_ticks, "ticks ahead over which an entity's update region is swept; 0: where it is now")->check(number_from(0, sweep_ticks_max))->capture_default_str();
   app.add_option("--policy", options.policy, "when motion is sent")->check(CLI::IsMember(update_policy_names()))->capture_default_str();
+  app.add_option("--threshold", options.threshold, "under dead-reckoning and dead-reckoning-drag: how far clients may be off before they are told anew [m]")->check(number_from(1e-4, 10.0))->capture_default_str();
   app.add_option("--rate", options.rate_hz, "ticks per second")->check(number_from(1.0, 1000.0))->capture_default_str();
   app.add_option("--spread", options.spread, "part of a tick over which its writes are staggered, each client's at a phase of its own; 0: all at once")->check(number_from(0.0, 0.9))->capture_default_str();
   app.add_option("--pace", options.pace, "realtime: by the clock; synchronous: a tick when every player has said Update")

@@ -21,7 +21,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       now_(std::move(now)),
       game_(scene),
       is_replay_(settings.replay.has_value()),
-      policy_(make_update_policy(settings.policy)),
+      policy_(make_update_policy(settings.policy, {.threshold = settings.threshold})),
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
       always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))),

@@ -34,6 +34,7 @@ inline constexpr double key_limit_default = 240.0;
 struct ServerSettings {
   std::string federation = "rink";
   std::string policy = "periodic";
+  double threshold = threshold_default;  ///< of policies that take one [m], see UpdatePolicySettings
   std::uint32_t sweep_ticks = 0;  ///< see RegionSweep
   double tick_s = 1.0 / 30.0;     ///< time between two ticks [s], which the sweep needs to know and the players of hosted matches are told
   bool is_synchronous = false;    ///< players are told that they take turns

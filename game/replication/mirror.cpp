@@ -1,6 +1,8 @@
 // Applies discoveries, reflections and changes of scope to the mirror.
 #include "game/replication/mirror.h"
 
+#include <cmath>
+
 #include "rti/wire/message.h"
 
 namespace rink::game {
@@ -9,7 +11,7 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
   if (known_.find(object) != nullptr) return;
   if (object_class == model_.entity) {
     known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
-    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .is_placed = false, .in_scope = false});
+    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .placed_s = 0.0, .is_foretold = false, .is_placed = false, .in_scope = false});
   } else if (object_class == model_.score) {
     known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {
@@ -41,7 +43,12 @@ void Mirror::reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti
 }
 
 bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values) {
-  if (attributes == position_) return decode(values, entity.position);  // nearly all of the traffic
+  if (attributes == position_) {  // nearly all of the traffic
+    Position heard;
+    if (!decode(values, heard)) return false;
+    place(entity, heard);
+    return true;
+  }
   rti::Reader reader(values);
   if (attributes == trajectory_) {
     Trajectory heard;
@@ -58,13 +65,32 @@ bool Mirror::reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes
   MirroredEntity heard = entity;
   if (attributes.contains(model_.shape) && !exchange(reader, heard.shape)) return false;
   if (attributes.contains(model_.input) && !exchange(reader, heard.input)) return false;
-  if (attributes.contains(model_.position) && !exchange(reader, heard.position)) return false;
+  Position position;
+  const bool is_told_position = attributes.contains(model_.position);
+  if (is_told_position && !exchange(reader, position)) return false;
   if (attributes.contains(model_.trajectory) && !exchange(reader, heard.trajectory.emplace())) return false;
   if (attributes.contains(model_.snapshot) && !reflect_snapshot(reader, heard)) return false;
   if (!reader.is_at_end()) return false;
+  if (is_told_position) place(heard, position);
   follow_law(heard);
   entity = heard;
   return true;
+}
+
+/// With linear drag g the way of a time t is v (e^(gt) - 1)/g, v being the velocity at its end.
+void Mirror::place(MirroredEntity& entity, const Position& position) const {
+  const physics::Vector2 from(static_cast<double>(entity.position.x), static_cast<double>(entity.position.y));
+  const double gap_s = entity.stamp.time - entity.placed_s;
+  const bool has_way = extrapolates_ && entity.is_placed && gap_s > 0.0 && gap_s <= foretold_gap_max;
+  entity.position = position;
+  entity.placed_s = entity.stamp.time;
+  entity.is_foretold = false;
+  if (!has_way) return;
+  const physics::Vector2 at(static_cast<double>(position.x), static_cast<double>(position.y)), way = at - from;
+  if (way.isZero(0.0) || way.norm() > foretold_speed_max * gap_s) return;
+  const double g = drag_.of(static_cast<physics::BodyKind>(entity.shape.kind)).drag;
+  entity.motion = {.time = entity.stamp.time, .position = at, .velocity = way * (g > 0.0 ? g / std::expm1(g * gap_s) : 1.0 / gap_s), .acceleration = {0.0, 0.0}, .drag = {g, g}};
+  entity.is_foretold = true;
 }
 
 /// Until the next one the entity goes on as one of its kind does on its own.
@@ -116,6 +142,7 @@ void Mirror::set_scope(rti::ObjectHandle object, bool in_scope) {
   if (changed == nullptr || changed->in_scope == in_scope) return;
   changed->in_scope = in_scope;
   changed->is_placed &= in_scope;
+  changed->is_foretold &= in_scope;
   ++(in_scope ? counters_.entered : counters_.left);
 }
 

@@ -26,11 +26,14 @@ struct MirroredEntity {
   std::optional<Trajectory> trajectory; ///< as last told, or begun by the last snapshot; of entities that are told either
   physics::Motion motion;               ///< the law it stands for
   rti::Stamp stamp;       ///< of the newest update
+  double placed_s = 0.0;      ///< of what is told positions: the instant of the last
+  bool is_foretold = false;   ///< of what is told positions: `motion` leads on from the last
   bool is_placed = false; ///< it was told where it is since it last left: who discovers an entity, or has it again, may hear that later
   bool in_scope = false;  ///< false: it left the federate's interest, the rest is what was true then
 
-  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if it was told one, else where it was last told.
+  /// Where the federate believes its centre to be at simulated `instant` [s]: on its trajectory if it was told one, else ahead of where it was last told, or there.
   physics::Vector2 position_at(double instant) const {
+    if (is_foretold) return motion.at(std::max(instant, motion.time)).position;
     if (!trajectory) return {static_cast<double>(position.x), static_cast<double>(position.y)};
     return trajectory->is_resting() ? motion.position : motion.at(std::max(instant, motion.time)).position;
   }
@@ -45,6 +48,12 @@ struct MirrorCounters {
 class Mirror {
  public:
   explicit Mirror(const ObjectModel& model) : model_(model), position_{model.position}, trajectory_{model.trajectory}, snapshot_{model.snapshot} {}
+
+  /// From now on entities that are told positions are foretold by the velocity between the last two. One that went faster than `foretold_speed_max` was put elsewhere,
+  /// and of two that lie further apart than `foretold_gap_max` the older says nothing of how it moves.
+  void extrapolate() { extrapolates_ = true; }
+  static constexpr double foretold_speed_max = 50.0;  ///< m/s
+  static constexpr double foretold_gap_max = 1.0;     ///< s
 
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
   void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values, const rti::Stamp& stamp);
@@ -79,6 +88,7 @@ class Mirror {
   MirroredEntity* entity(rti::ObjectHandle object);
   bool reflect_entity(MirroredEntity& entity, rti::AttributeSet attributes, rti::Bytes values);
   bool reflect_snapshot(rti::Reader& reader, MirroredEntity& entity) const;
+  void place(MirroredEntity& entity, const Position& position) const;
   bool reflect_field(rti::AttributeSet attributes, rti::Bytes values);
   bool reflect_match(rti::AttributeSet attributes, rti::Bytes values);
   void follow_law(MirroredEntity& entity) const;
@@ -92,7 +102,7 @@ class Mirror {
   MatchState match_;
   std::string match_scene_;
   double match_tick_ = 0.0;
-  bool has_match_ = false;
+  bool has_match_ = false, extrapolates_ = false;
   Drag drag_;
   rti::Stamp newest_;
   MirrorCounters counters_;

@@ -16,8 +16,7 @@ Publisher::Publisher(const ObjectModel& model, rti::Ambassador& ambassador, Upda
   score_ = ambassador_.register_object_instance(model_.score, "score");
   const physics::Field& field = game.world().spec().field;
   const Extent extent{.length = static_cast<float>(field.length), .width = static_cast<float>(field.width)};
-  const physics::WorldSpec& spec = game.world().spec();
-  const Drag drag{.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
+  const Drag drag = policy.told_drag(game.world().spec());
   ambassador_.update_attribute_values(field_, {model_.extent, model_.drag}, encode(encoded_, extent, drag), {});
   ambassador_.update_attribute_values(score_, {model_.goals}, encode(encoded_, goals_), {});
 }

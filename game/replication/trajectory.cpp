@@ -61,6 +61,16 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
   return told;
 }
 
+Trajectory extrapolation_of(const Vector2& position, const Vector2& velocity, double now, const Resistance& own) {
+  Motion onwards{.time = now, .position = position, .velocity = velocity, .acceleration = {0.0, 0.0}, .drag = {own.drag, own.drag}};
+  if (own.friction > 0.0) onwards.slide(own.friction);
+  const double time = std::floor(now / trajectory_time_step) * trajectory_time_step;
+  const Motion there = at_or_before(onwards, time);
+  const Trajectory told{.time = time, .position = rounded_to(trajectory_position_step, there.position), .velocity = rounded_to(trajectory_velocity_step, there.velocity)};
+  if (told.is_resting()) return {.position = rounded_to(trajectory_position_step, position)};
+  return told;
+}
+
 physics::Motion motion_of(const Trajectory& told, const Resistance& own) {
   const auto drag = [&own](double value) { return value == Trajectory::of_its_kind ? own.drag : value; };
   Motion motion{.time = told.time, .position = told.position, .velocity = told.velocity, .acceleration = told.acceleration, .drag = {drag(told.drag.x()), drag(told.drag.y())}};

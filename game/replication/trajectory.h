@@ -1,4 +1,4 @@
-// The law by which an entity moves until it is told otherwise: what goes out instead of positions under the policy "on-event".
+// The law by which an entity moves until it is told otherwise: what goes out instead of positions under "on-event" and the dead-reckoning policies.
 #pragma once
 
 #include <bit>
@@ -68,6 +68,9 @@ inline physics::Vector2 single_precision(const physics::Vector2& value) { return
 
 /// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);
+
+/// What a receiver is told of a body at `position` [m] with `velocity` [m/s] at `now` [s] who is to let it go on with `own` resistance and no thrust; rounded.
+Trajectory extrapolation_of(const physics::Vector2& position, const physics::Vector2& velocity, double now, const Resistance& own);
 
 /// The law that a receiver who knows the `own` resistance of the entity's kind follows; it must not be asked for instants before its time.
 physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);

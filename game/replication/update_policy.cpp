@@ -1,5 +1,7 @@
-// The paper's policy, positions every tick; delta snapshots; and the one of exact motion, a trajectory when it changes.
+// The paper's policy, positions every tick; delta snapshots; dead reckoning; and the one of exact motion, a trajectory when it changes.
 #include "game/replication/update_policy.h"
+
+#include <algorithm>
 
 #include "game/replication/attributes.h"
 #include "game/replication/trajectory.h"
@@ -79,15 +81,56 @@ class OnEvent : public UpdatePolicy {
   std::vector<Told> told_;  ///< by entity
 };
 
+/// Sends where a body is and how fast when receivers, who let it go on from what they were told last, are off by more than a threshold (IEEE 1278.1-2012, 4.2.2 and
+/// annex E). They know of no thrust; of drag only if the field tells them.
+class DeadReckoning : public UpdatePolicy {
+ public:
+  DeadReckoning(double threshold, bool knows_drag) : threshold_(threshold), knows_drag_(knows_drag) {}
+  rti::AttributeHandle motion_attribute(const ObjectModel& model) const override { return model.trajectory; }
+  Drag told_drag(const physics::WorldSpec& spec) const override { return knows_drag_ ? UpdatePolicy::told_drag(spec) : Drag{}; }
+
+  bool is_due(const Game& game, const Entity& entity) override {
+    if (entity.kind == physics::BodyKind::post) return false;
+    const Told& told = told_[entity.id.index];
+    const bool is_resting = told.trajectory.is_resting();
+    if (!is_resting && game.now() > told.trajectory.time + trajectory_age_max) return true;
+    const physics::Vector2 shown = is_resting ? told.trajectory.position : told.law.at(std::max(game.now(), told.law.time)).position;
+    return (shown - game.position(entity.id)).norm() > threshold_;
+  }
+
+  void write(const Game& game, const Entity& entity, rti::Writer& value) override {
+    if (told_.size() <= entity.id.index) told_.resize(entity.id.index + 1);
+    Told& told = told_[entity.id.index];
+    const Resistance own = told_drag(game.world().spec()).of(entity.kind);
+    const Snapshot now = snapshot_of(game.world(), entity.id);
+    told.trajectory = extrapolation_of(now.position, now.velocity, game.now(), own);
+    told.law = motion_of(told.trajectory, own);
+    exchange(value, told.trajectory);
+  }
+
+ private:
+  struct Told {
+    Trajectory trajectory;
+    physics::Motion law;
+  };
+  const double threshold_;
+  const bool knows_drag_;
+  std::vector<Told> told_;  ///< by entity
+};
+
 }  // namespace
 
-std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name) {
+std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name, const UpdatePolicySettings& settings) {
   if (name == "periodic") return std::make_unique<Periodic>();
   if (name == "snapshot") return std::make_unique<Snapshots>();
+  if (name == "dead-reckoning") return std::make_unique<DeadReckoning>(settings.threshold, false);
+  if (name == "dead-reckoning-drag") return std::make_unique<DeadReckoning>(settings.threshold, true);
   if (name == "on-event") return std::make_unique<OnEvent>();
   return nullptr;
 }
 
-std::vector<std::string> update_policy_names() { return {"periodic", "snapshot", "on-event"}; }
+std::vector<std::string> update_policy_names() { return {"periodic", "snapshot", "dead-reckoning", "dead-reckoning-drag", "on-event"}; }
+
+bool takes_threshold(const std::string& policy) { return policy.starts_with("dead-reckoning"); }
 
 }  // namespace rink::game

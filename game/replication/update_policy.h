@@ -7,6 +7,7 @@
 
 #include "game/control/game.h"
 #include "game/replication/object_model.h"
+#include "game/replication/trajectory.h"
 #include "rti/wire/stream.h"
 
 namespace rink::game {
@@ -21,10 +22,22 @@ class UpdatePolicy {
   virtual bool is_due(const Game& game, const Entity& entity) = 0;
   /// Appends that attribute's value as of game.now(), which is sent: the first time for an entity that is new, later when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
+  /// What slows bodies down, as receivers are told it to work out where they are between updates.
+  virtual Drag told_drag(const physics::WorldSpec& spec) const { return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}; }
+};
+
+/// Default of `UpdatePolicySettings::threshold`.
+inline constexpr double threshold_default = 0.005;
+
+struct UpdatePolicySettings {
+  double threshold = threshold_default;  ///< of the dead-reckoning policies: how far receivers may be off before they are told anew [m], above 0
 };
 
 /// The policy called `name`, or nothing if there is none. Names: see `update_policy_names`.
-std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name);
+std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name, const UpdatePolicySettings& settings = {});
+
+/// True of the policies that take a threshold.
+bool takes_threshold(const std::string& policy);
 
 std::vector<std::string> update_policy_names();
 

@@ -125,7 +125,7 @@ TEST(Flights, OfWhatFrictionStopsAreNotHandedIn) {
 TEST(Tiers, NeverLeaveAMirrorMoreThanItsPeriodBehind) {
   for (const std::string policy : {"periodic", "on-event", "snapshot"}) {
     const Scene scene = small_crowd();
-    LockstepRink rink(scene, {.scheme = "none with tiers(at=0.05 at=0.1 at=0.2)", .clients = 2, .view_fraction = 1.0, .server = {.policy = policy, .replay = keys_for(scene, 5, 4.0)}});
+    LockstepRink rink(scene, {.scheme = "none with tiers(at=0.05 at=0.1 at=0.2)", .clients = 2, .view_fraction = 1.0, .extrapolates = false, .server = {.policy = policy, .replay = keys_for(scene, 5, 4.0)}});
     rink.start();
     const physics::World& world = rink.server().game().world();
     std::vector<std::vector<Vector2>> paths(world.body_count());
