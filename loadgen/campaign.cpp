@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
+#include <future>
 #include <map>
+#include <optional>
+#include <thread>
 #include <utility>
 
+#include "loadgen/parameter.h"
 #include "loadgen/peer_processes.h"
 #include "loadgen/peer_run.h"
 #include "loadgen/virtual_run.h"
@@ -13,12 +18,21 @@
 namespace rink::loadgen {
 namespace {
 
+/// A game of a part lasts as long as its cells do.
+std::string played_game(const Experiment& experiment, const Cell& cell) {
+  const Experiment& part = part_of(experiment, cell.part);
+  const auto until_s = [](const Experiment& of) { return of.warm_up_s + of.duration_s; };
+  const bool is_of_first_length = experiment.parts.empty() || until_s(part) == until_s(experiment.parts.front());
+  return game_of(cell, part.population) + (is_of_first_length ? "" : "-" + shortest(until_s(part)) + "s");
+}
+
 /// Game name to key log, all written before the first cell starts, so that an impossible one is found before anything was waited for.
 std::map<std::string, std::filesystem::path> write_key_logs(const Experiment& experiment, const ResultsDirectory& results, const KeyLogWriter& write) {
   std::map<std::string, std::filesystem::path> logs;
   const std::filesystem::path folder = results.subdirectory("keys");
   for (const Cell& cell : cells_of(experiment)) {
-    const auto [log, is_new] = logs.try_emplace(game_of(cell, experiment.population), folder / (game_of(cell, experiment.population) + ".keys"));
+    const std::string game = played_game(experiment, cell);
+    const auto [log, is_new] = logs.try_emplace(game, folder / (game + ".keys"));
     if (is_new) write(cell, log->second);
   }
   return logs;
@@ -39,29 +53,93 @@ std::vector<RunRecord> runs_to_keep(const Experiment& experiment, const std::vec
   return kept;
 }
 
+namespace {
+
+/// Larger crowds in virtual time run one after the other, for each takes much of the memory.
+constexpr std::uint32_t clients_beside_others_max = 300;
+
+using Clock = std::chrono::steady_clock;
+
+/// Runs cells and takes their records in the order in which they were started: those in virtual time beside each other on all processors, for nothing in them depends on
+/// how fast they run; all others alone.
+class CellQueue {
+ public:
+  CellQueue(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, Progress& progress, Outcome& outcome)
+      : experiment_(experiment), settings_(settings), results_(results), progress_(progress), outcome_(outcome) {}
+
+  /// False once it was interrupted.
+  bool run(const Cell& cell, const std::filesystem::path& key_log) {
+    const Experiment& part = part_of(experiment_, cell.part);
+    const bool is_virtual = part.transport == TransportKind::virtual_time, has_peers = cell.mode == peer_mode;
+    const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : is_virtual ? run_virtual_cell : run_cell;
+    if (!is_virtual || cell.clients > clients_beside_others_max) {
+      if (!finish()) return false;
+      progress_.starts(cell);
+      return take(run(settings_, part, cell, key_log));
+    }
+    while (under_way_.size() >= worker_count_)
+      if (!take_first()) return false;
+    progress_.starts(cell);
+    under_way_.push_back(std::async(std::launch::async, [this, run, &part, cell, key_log] {
+      RunnerSettings settings = settings_;
+      settings.keeps_evidence = !part.is_of_curves;  // there are hundreds of points of curves
+      return run(settings, part, cell, key_log);
+    }));
+    return true;
+  }
+
+  /// Takes the records of what is under way.
+  bool finish() {
+    while (!under_way_.empty())
+      if (!take_first()) return false;
+    return true;
+  }
+
+ private:
+  using Record = std::optional<RunRecord>;
+
+  bool take_first() {
+    std::future<Record> first = std::move(under_way_.front());
+    under_way_.pop_front();
+    return take(first.get());
+  }
+
+  bool take(const Record& record) {
+    if (!record || outcome_.was_interrupted) {
+      outcome_.was_interrupted = true;
+      return false;
+    }
+    outcome_.runs.push_back(*record);
+    const Clock::time_point now = Clock::now();
+    progress_.finished(*record, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+    results_.append(*record);
+    return true;
+  }
+
+  const Experiment& experiment_;
+  const RunnerSettings& settings_;
+  ResultsDirectory& results_;
+  Progress& progress_;
+  Outcome& outcome_;
+  const std::size_t worker_count_ = std::max(1u, std::thread::hardware_concurrency());
+  Clock::time_point last_ = Clock::now();
+  std::deque<std::future<Record>> under_way_;
+};
+
+}  // namespace
+
 Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
                      Progress& progress, std::vector<RunRecord> kept) {
-  using Clock = std::chrono::steady_clock;
   Outcome outcome;
   const std::vector<RunRecord> before = std::move(kept);
   outcome.runs = before;
   try {
     const auto key_logs = write_key_logs(experiment, results, write_key_log);
-    for (const Cell& cell : cells_of(experiment)) {
-      if (has_run_of(cell, before)) continue;
-      progress.starts(cell);
-      const auto start = Clock::now();
-      const bool is_virtual = experiment.transport == TransportKind::virtual_time, has_peers = cell.mode == peer_mode;
-      const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : is_virtual ? run_virtual_cell : run_cell;
-      const auto record = run(settings, experiment, cell, key_logs.at(game_of(cell, experiment.population)));
-      if (!record) {
-        outcome.was_interrupted = true;
-        break;
-      }
-      outcome.runs.push_back(*record);
-      progress.finished(*record, std::chrono::duration<double>(Clock::now() - start).count());
-      results.append(*record);
-    }
+    CellQueue queue(experiment, settings, results, progress, outcome);
+    for (const Cell& cell : cells_of(experiment))
+      if (!has_run_of(cell, before) && !queue.run(cell, key_logs.at(played_game(experiment, cell)))) break;
+    queue.finish();
   } catch (const OutputError& error) {
     outcome.output_failure = error.what();
   }

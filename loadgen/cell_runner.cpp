@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "game/players/player.h"
+#include "game/replication/update_policy.h"
 #include "loadgen/process.h"
 #include "loadgen/process_run.h"
 #include "loadgen/truth/truth.h"
@@ -146,6 +147,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
     for (const std::string& kind : experiment.always) add("--always", kind);
   if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
   add("--policy", cell.policy);
+  if (game::takes_threshold(cell.policy)) add("--threshold", decimal(cell.parameters.threshold));
   add("--rate", decimal(cell.parameters.tick_rate_hz));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
@@ -171,6 +173,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   add("--view", decimal(cell.parameters.view_fraction));
   if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
   if (cell.parameters.view_margin > 0.0) add("--view-margin", decimal(cell.parameters.view_margin));
+  if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--report", report.string());

@@ -13,6 +13,7 @@
 #include "loadgen/assertion.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
+#include "loadgen/equal_error.h"
 #include "loadgen/growth.h"
 #include "loadgen/modes_table.h"
 #include "loadgen/open_files.h"
@@ -101,8 +102,10 @@ std::uint32_t allowed_clients() {
 }
 
 std::size_t files_needed(const Experiment& experiment) {
-  return experiment.transport == TransportKind::virtual_time ? files_besides_clients
-                                                             : *std::max_element(experiment.clients.begin(), experiment.clients.end()) + files_besides_clients;
+  std::size_t needed = files_besides_clients;
+  for (const Experiment& part : experiment.parts) needed = std::max(needed, files_needed(part));
+  if (!experiment.parts.empty() || experiment.transport == TransportKind::virtual_time) return needed;
+  return *std::max_element(experiment.clients.begin(), experiment.clients.end()) + files_besides_clients;
 }
 
 void expect_enough_files(const Experiment& experiment) {
@@ -136,7 +139,8 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
     const std::string comment = comment_lines(provenance);
     results.write("summary.csv", comment + to_csv(rows));
     results.write("comparisons.csv", comment + comparisons_csv(rows, baseline));
-    const auto growths = growths_of(runs);
+    if (const auto compared = equal_errors_of(experiment, runs); !compared.empty()) results.write("equal_error.csv", comment + to_csv(compared));
+    const auto growths = growths_of(without_curves(experiment, runs));
     const auto ratios = cores_ratios_of(runs);
     if (!growths.empty()) results.write("growth.csv", comment + to_csv(growths));
     if (!ratios.empty()) results.write("server_cores.csv", comment + to_csv(ratios));
@@ -188,8 +192,10 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
     return std::cout ? success : reader_gone;
   }
   if (!options.saturate.is_wanted) expect_enough_files(experiment);
-  const bool is_virtual = experiment.transport == TransportKind::virtual_time;
-  const bool has_peers = std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end();
+  const std::vector<Cell> cells = cells_of(experiment);
+  const auto is_virtual_cell = [&experiment](const Cell& cell) { return part_of(experiment, cell.part).transport == TransportKind::virtual_time; };
+  const bool is_virtual = std::ranges::all_of(cells, is_virtual_cell);
+  const bool has_peers = std::ranges::any_of(cells, [](const Cell& cell) { return cell.mode == peer_mode; });
   RunnerSettings settings = runner_settings(options, has_peers && !is_virtual);
   const JournalHead identity{identity_of(experiment), rink::game::built_commit(), {}};
   Continuation continuation = opened_results(options, experiment, identity);
@@ -200,7 +206,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   if (continuation.kept.empty()) results.set_head(to_json(JournalHead{identity.experiment, identity.commit, provenance.facts}));
 
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size() - continuation.kept.size(), expected_cell_s(experiment));
-  const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) { write_game_plan(experiment, cell, file); };
+  const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) { write_game_plan(part_of(experiment, cell.part), cell, file); };
   std::vector<Saturation> found;
   Outcome outcome = options.saturate.is_wanted ? run_saturation(experiment, options.saturate, allowed_clients(), settings, results, write_keys, std::cerr, found)
                                                : run_campaign(experiment, settings, results, write_keys, progress, continuation.kept);
@@ -210,8 +216,9 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
     const std::string failure = write_results(results, experiment, outcome.runs, provenance, more_sections);
     if (outcome.output_failure.empty()) outcome.output_failure = failure;
     const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
-    std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(outcome.runs, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
-    if (!options.saturate.is_wanted) std::cout << modes_table(outcome.runs) << growth_table(growths_of(outcome.runs)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
+    const std::vector<RunRecord> shown = without_curves(experiment, outcome.runs);
+    std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(shown, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
+    if (!options.saturate.is_wanted) std::cout << equal_error_table(equal_errors_of(experiment, outcome.runs)) << modes_table(shown) << growth_table(growths_of(shown)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {
     std::cerr << "rink-compare: interrupted; kept " << outcome.runs.size() << (options.saturate.is_wanted ? "" : " of " + std::to_string(cells_of(experiment).size())) << " runs\n";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "game/net/peer/greetings.h"
@@ -39,7 +40,10 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
   reader.whole_numbers("bats", result.bats, 0, 1'000'000);
   reader.whole_numbers("seeds", result.seeds, 0, 1'000'000'000);
   reader.whole_numbers("server_cores", result.server_cores, 1, 2);
-  for (const ParameterKind& kind : parameter_kinds()) reader.numbers(kind.key, result.*kind.values, kind.allowed, kind.is_allowed, kind.is_whole);
+  for (const ParameterKind& kind : parameter_kinds()) {
+    if (kind.is_switch) reader.switches(kind.key, result.*kind.values);
+    else reader.numbers(kind.key, result.*kind.values, kind.allowed, kind.is_allowed, kind.is_whole);
+  }
 }
 
 void read_setting(ExperimentReader& reader, Experiment& result, const std::filesystem::path& file) {
@@ -60,14 +64,24 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   if (!game::is_player_kind(result.players)) result.players = (file.parent_path() / result.players).lexically_normal().string();
 }
 
+/// With several parts the baseline may be of any of them.
 void read_baseline(ExperimentReader& reader, Experiment& result) {
   const auto read = [&reader](const char* key, std::string& name, const std::vector<std::string>& compared) {
     const auto is_compared = [&compared](const std::string& word) { return std::find(compared.begin(), compared.end(), word) != compared.end(); };
     if (!is_compared(name)) name = compared.front();
     reader.text(key, name, "one that is compared: " + joined(compared), is_compared);
   };
-  read("baseline_scheme", result.baseline_scheme, result.schemes);
-  read("baseline_policy", result.baseline_policy, result.policies);
+  std::vector<std::string> schemes = result.parts.empty() ? result.schemes : std::vector<std::string>(), policies = result.parts.empty() ? result.policies : schemes;
+  for (const Experiment& part : result.parts) {
+    std::ranges::copy(part.schemes, std::back_inserter(schemes));
+    std::ranges::copy(part.policies, std::back_inserter(policies));
+  }
+  read("baseline_scheme", result.baseline_scheme, schemes);
+  read("baseline_policy", result.baseline_policy, policies);
+}
+
+bool is_part_name(const std::string& name) {
+  return !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_'; });
 }
 
 /// What peers do not do, so that nobody waits for cells that cannot run.
@@ -118,6 +132,28 @@ Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& 
   return parse_experiment(text.str(), file, vocabulary);
 }
 
+namespace {
+
+/// What a part says, and what the experiment says where it does not.
+Experiment part_in(ExperimentReader& reader, const Experiment& whole, const std::filesystem::path& file, const Vocabulary& vocabulary) {
+  Experiment result;
+  result.name = whole.name, result.scene = whole.scene;
+  reader.text("name", result.part, "a name of at most 40 letters, digits, - and _", is_part_name);
+  if (std::ranges::any_of(whole.parts, [&result](const Experiment& other) { return other.part == result.part; })) reader.refuse_all("the name " + result.part + " is that of another part");
+  std::vector<double> is_of_curves{0.0};
+  reader.switches("curves", is_of_curves);
+  result.is_of_curves = is_of_curves.front() != 0.0;
+  read_matrix(reader, result, vocabulary);
+  read_setting(reader, result, file);
+  read_network(reader, result);
+  reader.refuse_the_rest();
+  expect_what_peers_can(result, file.string());
+  expect_use_of_always(result, file.string());
+  return result;
+}
+
+}  // namespace
+
 Experiment parse_experiment(std::string_view text, const std::filesystem::path& file, const Vocabulary& vocabulary) {
   const toml::table table = parsed(text, file.string());
   ExperimentReader reader(table, file.string());
@@ -127,9 +163,17 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   result.scene = scene_beside(reader.required_text("scene"), file);
   read_matrix(reader, result, vocabulary);
   read_setting(reader, result, file);
+  for (ExperimentReader& part : reader.tables("parts")) {
+    if (!part.has("name")) part.refuse_all("name is missing: a name of at most 40 letters, digits, - and _ is required");
+    part.fall_back_on(table);
+    result.parts.push_back(part_in(part, result, file, vocabulary));
+  }
   read_baseline(reader, result);
-  read_network(reader, result);
+  for (Experiment& part : result.parts) part.baseline_scheme = result.baseline_scheme, part.baseline_policy = result.baseline_policy;
+  if (result.parts.empty()) read_network(reader, result);
+  else if (reader.table("network")) {}  // each part has read it
   reader.refuse_the_rest();
+  if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());
   expect_use_of_always(result, file.string());
   return result;

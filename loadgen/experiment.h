@@ -44,6 +44,8 @@ struct Parameters {
   std::uint32_t sweep_ticks = 0;  ///< ticks ahead over which update regions are swept (game::RegionSweep)
   double cell_size = 0.0;         ///< side of a scheme's cells [m]; 0 lets the scheme choose
   double tick_rate_hz = 30.0;     ///< ticks of the server per second, 1 to 1000: decisions are as old as their inverse
+  double threshold = 0.005;       ///< [m] of the dead-reckoning policies (game::UpdatePolicySettings)
+  bool extrapolates = true;       ///< whether clients show what they are told positions of ahead of the last; without it `periodic` is the paper's
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -71,6 +73,7 @@ struct Experiment {
   double duration_s = 3.0;       ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;        ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.0}, sweep_ticks{0.0}, cell_sizes{0.0}, tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
+  std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< likewise
   std::vector<std::uint32_t> pucks{0}, bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
   double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
   TransportKind transport = TransportKind::tcp;
@@ -87,7 +90,14 @@ struct Experiment {
   Population population = Population::fixed;
   KeySource keys = KeySource::replay;
   std::string text;  ///< the file as read
+  /// Of an experiment of several parts: each is one of its own, with the same name, scene and baseline and all that it does not say otherwise. The cells are theirs.
+  std::vector<Experiment> parts{};
+  std::string part{};         ///< of a part: its name
+  bool is_of_curves = false;  ///< of a part: its cells are points of curves along which rivals are compared at equal error, and rows of no table
 };
+
+/// That of the experiment's parts which `cell` is of; itself if it has none.
+const Experiment& part_of(const Experiment& experiment, const std::string& part);
 
 /// Reads `file`. Throws ExperimentError.
 Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& vocabulary);
@@ -103,6 +113,7 @@ struct Cell {
   Parameters parameters{};
   std::uint32_t pucks = 0, bats = 0;  ///< 0: the scene's own
   std::uint32_t server_cores = 1;
+  std::string part{};  ///< of the experiment; empty if it has none
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
@@ -118,6 +129,9 @@ inline Cell without_seed(Cell cell) {
   cell.seed = 0;
   return cell;
 }
+
+/// How its policy is called: `periodic` without extrapolation is `periodic (paper)`.
+std::string policy_name(const Cell& cell);
 
 /// The cell that the ratios of `cell` refer to: the same but for `scheme` and `policy`.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);

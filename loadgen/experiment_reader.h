@@ -37,6 +37,9 @@ class ExperimentReader {
   /// `prefix` stands before keys in complaints: the name of a table and a dot.
   ExperimentReader(const toml::table& table, std::string file, std::string prefix = "") : table_(table), file_(std::move(file)), prefix_(std::move(prefix)) {}
 
+  /// What is not in the table is looked for in `other`, which outlives this.
+  void fall_back_on(const toml::table& other) { others_ = &other; }
+
   std::string required_text(const char* key) {
     const toml::node* node = take(key);
     if (!node) throw ExperimentError(file_ + ": " + key + " is missing: a text is required");
@@ -83,6 +86,14 @@ class ExperimentReader {
       const auto value = node.is_number() && (!is_whole || node.is_integer()) ? node.value<double>() : std::nullopt;
       if (!value || !std::isfinite(*value) || !is_allowed(*value)) return std::nullopt;
       return value;
+    });
+  }
+
+  /// true, false or both, as 1 and 0.
+  void switches(const char* key, std::vector<double>& into) {
+    read_list(key, into, "true, false or both", [](const toml::node& node) -> std::optional<double> {
+      const auto value = node.value_exact<bool>();
+      return value ? std::optional(*value ? 1.0 : 0.0) : std::nullopt;
     });
   }
 
@@ -141,7 +152,7 @@ class ExperimentReader {
     for (const toml::node& entry : *node->as_array()) readers.emplace_back(*entry.as_table(), file_, prefix_ + key + ".");
     return readers;
   }
-  bool has(const char* key) const { return table_.contains(key); }
+  bool has(const char* key) const { return table_.contains(key) || (others_ != nullptr && others_->contains(key)); }
   /// Complains about the table as a whole.
   [[noreturn]] void refuse_all(const std::string& why) const {
     throw ExperimentError(place(table_.source().begin.line) + prefix_.substr(0, prefix_.size() - !prefix_.empty()) + ": " + why);
@@ -164,7 +175,8 @@ class ExperimentReader {
 
   const toml::node* take(const char* key) {
     taken_.insert(key);
-    return table_.get(key);
+    const toml::node* own = table_.get(key);
+    return own == nullptr && others_ != nullptr ? others_->get(key) : own;
   }
 
   /// A list or a single value; each value once.
@@ -188,6 +200,7 @@ class ExperimentReader {
   }
 
   const toml::table& table_;
+  const toml::table* others_ = nullptr;
   std::string file_, prefix_;
   std::set<std::string> taken_;
 };

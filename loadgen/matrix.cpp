@@ -1,5 +1,7 @@
 // The matrix that an experiment spans, and how its points are called.
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "loadgen/experiment.h"
@@ -22,6 +24,9 @@ struct Variation {
   const char *before, *after;
 };
 
+/// Positions shown where they were told, as in the paper: the policy's name says so.
+bool is_paper(const Cell& cell) { return cell.policy == "periodic" && !cell.parameters.extrapolates; }
+
 std::vector<Variation> variations_of(const Cell& cell) {
   const Parameters& own = cell.parameters;
   const Parameters standard;
@@ -29,7 +34,7 @@ std::vector<Variation> variations_of(const Cell& cell) {
   if (cell.pucks > 0) all.push_back({"pucks", std::to_string(cell.pucks), "", " pucks"});
   if (cell.bats > 0) all.push_back({"bats", std::to_string(cell.bats), "", " bats"});
   for (const ParameterKind& kind : parameter_kinds())
-    if (kind.of(own) != kind.of(standard)) all.push_back({kind.short_name, shortest(kind.of(own)), kind.before, kind.after});
+    if (kind.of(own) != kind.of(standard) && !(is_paper(cell) && std::string_view(kind.key) == "extrapolate")) all.push_back({kind.short_name, shortest(kind.of(own)), kind.before, kind.after});
   if (cell.server_cores != 1) all.push_back({"cores", std::to_string(cell.server_cores), "", " cores"});
   return all;
 }
@@ -39,17 +44,30 @@ std::vector<Variation> variations_of(const Cell& cell) {
 Cell without_idle_parameters(Cell cell) {
   const Parameters standard;
   for (const ParameterKind& kind : parameter_kinds())
-    if (!kind.has(cell.scheme)) kind.set(cell.parameters, kind.of(standard));
+    if (!kind.has(cell)) kind.set(cell.parameters, kind.of(standard));
   return cell;
 }
 
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy) {
   cell.scheme = scheme;
   cell.policy = policy;
+  cell.parameters.extrapolates = true;
   return without_idle_parameters(std::move(cell));
 }
 
+std::string policy_name(const Cell& cell) { return is_paper(cell) ? "periodic (paper)" : cell.policy; }
+
+const Experiment& part_of(const Experiment& experiment, const std::string& part) {
+  const auto found = std::find_if(experiment.parts.begin(), experiment.parts.end(), [&part](const Experiment& each) { return each.part == part; });
+  return found == experiment.parts.end() ? experiment : *found;
+}
+
 std::vector<Cell> cells_of(const Experiment& experiment) {
+  if (!experiment.parts.empty()) {
+    std::vector<Cell> all;
+    for (const Experiment& part : experiment.parts) std::ranges::copy(cells_of(part), std::back_inserter(all));
+    return all;
+  }
   std::vector<Cell> games;  // all that is outside of what is compared
   for (const std::uint64_t seed : experiment.seeds)
     for (const std::uint32_t clients : experiment.clients)
@@ -57,7 +75,7 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
         for (const std::uint32_t bats : experiment.bats)
           for (const std::string& mode : experiment.modes)
             for (const std::uint32_t cores : experiment.server_cores)
-              games.push_back({mode, {}, {}, clients, seed, {}, pucks, bats, cores});
+              games.push_back({mode, {}, {}, clients, seed, {}, pucks, bats, cores, experiment.part});
   std::vector<Cell> cells;
   for (Cell cell : games) {
     const auto first_of_game = static_cast<std::ptrdiff_t>(cells.size());
@@ -74,7 +92,8 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
 }
 
 std::string name_of(const Cell& cell) {
-  std::string name = cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy + "-" + std::to_string(cell.clients);
+  std::string name = cell.part.empty() ? "" : cell.part + "-";
+  name += cell.mode + "-" + im::file_name_of(cell.scheme) + "-" + cell.policy + (is_paper(cell) ? "-paper-" : "-") + std::to_string(cell.clients);
   for (const Variation& variation : variations_of(cell)) name += std::string("-") + variation.name + variation.value;
   return name + "-seed" + std::to_string(cell.seed);
 }

@@ -6,13 +6,17 @@
 #include <charconv>
 #include <string_view>
 
+#include "game/replication/update_policy.h"
 #include "rti/federation_execution.h"
 
 namespace rink::loadgen {
 namespace {
 
-bool always(const std::string&) { return true; }
-bool filters(const std::string& scheme) { return scheme != "none"; }
+bool always(const Cell&) { return true; }
+bool filters(const Cell& cell) { return cell.scheme != "none"; }
+bool has_cells(const Cell& cell) { return im::takes_cell_size(cell.scheme); }
+bool reckons(const Cell& cell) { return game::takes_threshold(cell.policy); }
+bool tells_positions(const Cell& cell) { return cell.policy == "periodic"; }
 
 constexpr std::array kinds{
     ParameterKind{"view_fraction", "numbers above 0 and at most 1", [](double v) { return v > 0.0 && v <= 1.0; }, false,
@@ -25,11 +29,17 @@ constexpr std::array kinds{
                   [](const Parameters& p) { return static_cast<double>(p.sweep_ticks); }, [](Parameters& p, double v) { p.sweep_ticks = static_cast<std::uint32_t>(v); },
                   &Experiment::sweep_ticks, filters, "sweep", "swept ", " ticks", "update regions swept over [ticks]", "swept", 1.0},
     ParameterKind{"cell_size", "numbers from 0.001 to 1e6, or 0 (the scheme chooses)", [](double v) { return v == 0.0 || (v >= 1e-3 && v <= 1e6); }, false,
-                  [](const Parameters& p) { return p.cell_size; }, [](Parameters& p, double v) { p.cell_size = v; }, &Experiment::cell_sizes, im::takes_cell_size,
+                  [](const Parameters& p) { return p.cell_size; }, [](Parameters& p, double v) { p.cell_size = v; }, &Experiment::cell_sizes, has_cells,
                   "cell", "cells ", " m", "side of a cell [m]", "cells, m", 1.0},
     ParameterKind{"tick_rate_hz", "numbers from 1 to 1000", [](double v) { return v >= 1.0 && v <= 1000.0; }, false,
                   [](const Parameters& p) { return p.tick_rate_hz; }, [](Parameters& p, double v) { p.tick_rate_hz = v; }, &Experiment::tick_rates_hz, always,
-                  "rate", "", " Hz", "ticks per second", "rate, Hz", 1.0}};
+                  "rate", "", " Hz", "ticks per second", "rate, Hz", 1.0},
+    ParameterKind{"threshold", "numbers from 1e-4 to 10", [](double v) { return v >= 1e-4 && v <= 10.0; }, false,
+                  [](const Parameters& p) { return p.threshold; }, [](Parameters& p, double v) { p.threshold = v; }, &Experiment::thresholds, reckons,
+                  "threshold", "threshold ", " m", "threshold of dead reckoning [mm]", "thr., mm", 1000.0},
+    ParameterKind{"extrapolate", "true, false or both", [](double v) { return v == 0.0 || v == 1.0; }, true,
+                  [](const Parameters& p) { return p.extrapolates ? 1.0 : 0.0; }, [](Parameters& p, double v) { p.extrapolates = v != 0.0; }, &Experiment::extrapolates, tells_positions,
+                  "extrapolate", "extrapolate ", "", "positions are extrapolated", "ahead", 1.0, true}};
 
 }  // namespace
 
@@ -60,7 +70,7 @@ std::vector<Parameters> parameters_of(const Experiment& experiment) {
 
 bool is_at_first_values(const Experiment& experiment, const Cell& cell, const ParameterKind* except) {
   return std::all_of(kinds.begin(), kinds.end(), [&](const ParameterKind& kind) {
-    return (except && std::string_view(kind.key) == except->key) || !kind.has(cell.scheme) || kind.of(cell.parameters) == (experiment.*kind.values).front();
+    return (except && std::string_view(kind.key) == except->key) || !kind.has(cell) || kind.of(cell.parameters) == (experiment.*kind.values).front();
   });
 }
 

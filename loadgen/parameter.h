@@ -18,10 +18,11 @@ struct ParameterKind {
   double (*of)(const Parameters&);
   void (*set)(Parameters&, double);
   std::vector<double> Experiment::*values;
-  bool (*has)(const std::string& scheme);  ///< whether a run under `scheme` depends on it
+  bool (*has)(const Cell& cell);  ///< whether a run of `cell` depends on it
   const char *short_name, *before, *after;  ///< in a cell's name, and in words around its value
   const char *axis, *column;                ///< what a plot calls it, with its unit, and a table in at most nine letters
   double scale;                             ///< from its own unit to that of `axis` and `column`
+  bool is_switch = false;                   ///< 1 or 0, which experiments write true and false
 };
 
 /// All, in the order of their columns.

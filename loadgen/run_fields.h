@@ -90,6 +90,9 @@ void visit_fields(Line& line, Record& run) {
   line.field("busiest_node_cpu_s", run.nodes.busiest_cpu_s);
   line.field("mean_node_cpu_s", run.nodes.mean_cpu_s);
   line.field("update_age_samples", run.update_age_samples);
+  line.field("part", run.cell.part);
+  line.field("threshold", run.cell.parameters.threshold);
+  line.field("extrapolate", run.cell.parameters.extrapolates);
 }
 
 }  // namespace rink::loadgen

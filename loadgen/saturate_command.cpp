@@ -91,6 +91,7 @@ std::vector<Saturation> saturate(const Experiment& experiment, const ServiceLeve
 
 Outcome run_saturation(const Experiment& experiment, const SaturateOptions& options, std::uint32_t allowed_clients, const RunnerSettings& settings, ResultsDirectory& results,
                        const KeyLogWriter& write_key_log, std::ostream& out, std::vector<Saturation>& found, std::span<const RunRecord> earlier) {
+  if (!experiment.parts.empty()) throw ExperimentError("experiment " + experiment.name + ": it has several parts; a search for the largest number of clients needs an experiment without [[parts]]");
   if (experiment.transport == TransportKind::virtual_time) {
     throw ExperimentError("experiment " + experiment.name + ": transport = \"virtual\": under a virtual clock no tick is ever late, so nothing saturates; allowed are \"tcp\", \"udp\", \"shm\"");
   }

@@ -113,10 +113,10 @@ std::vector<SummaryRow> empty_rows(std::span<const RunRecord> runs) {
     const Cell cell = without_seed(run.cell);
     if (std::find(rows.begin(), rows.end(), cell) == rows.end()) rows.emplace_back(cell);
   }
-  std::vector<std::string> modes;
-  for (const SummaryRow& row : rows) modes.push_back(row.mode);
+  std::vector<std::string> modes;  // of parts
+  for (const SummaryRow& row : rows) modes.push_back(row.part + row.mode);
   const auto place = [&modes](const SummaryRow& row) {
-    return std::tuple(std::find(modes.begin(), modes.end(), row.mode) - modes.begin(), row.clients, row.pucks, row.bats, row.server_cores);
+    return std::tuple(std::find(modes.begin(), modes.end(), row.part + row.mode) - modes.begin(), row.clients, row.pucks, row.bats, row.server_cores);
   };
   std::stable_sort(rows.begin(), rows.end(), [&place](const SummaryRow& a, const SummaryRow& b) { return place(a) < place(b); });
   return rows;
@@ -161,14 +161,14 @@ std::string csv_text(const std::string& text) {
 std::string cell_columns() {
   std::string columns = "mode,scheme,policy,clients,pucks,bats,server_cores";
   for (const ParameterKind& kind : parameter_kinds()) columns += std::string(",") + kind.key;
-  return columns;
+  return columns + ",part";
 }
 
 std::string cell_values(const Cell& cell) {
   std::string values = csv_text(cell.mode) + "," + csv_text(cell.scheme) + "," + csv_text(cell.policy) + "," + std::to_string(cell.clients) + "," + std::to_string(cell.pucks) + "," +
          std::to_string(cell.bats) + "," + std::to_string(cell.server_cores);
   for (const ParameterKind& kind : parameter_kinds()) values += "," + csv_number(kind.of(cell.parameters));
-  return values;
+  return values + "," + cell.part;
 }
 
 std::pair<std::optional<double>, std::optional<double>> ends_of(const std::optional<Interval>& interval) {

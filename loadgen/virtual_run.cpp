@@ -34,8 +34,9 @@ class VirtualRun {
   void run();
   Json server_report() const;
   Json bots_report() const;
-  /// Writes what server and bots saw; only if the run is to be judged by truth.
-  void write_evidence(const std::string& server_file, const std::string& bots_file) const;
+  /// What server and bots saw; only if the run is to be judged by truth.
+  game::ServerEvidence server_evidence() const;
+  BotsEvidence bots_evidence() const { return crowd_.evidence().value(); }
   /// What the connections carried from first to last; after `end`.
   void end(Json& server_report);
 
@@ -70,7 +71,7 @@ class VirtualRun {
 };
 
 game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys) {
-  game::ServerSettings settings{.policy = cell.policy, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
+  game::ServerSettings settings{.policy = cell.policy, .threshold = cell.parameters.threshold, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
   if (experiment.keys == KeySource::replay) settings.replay = keys;
   settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
   return settings;
@@ -81,6 +82,7 @@ BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const 
   settings.view_fraction = cell.parameters.view_fraction;
   settings.view_area = experiment.view_area;
   settings.view_margin = cell.parameters.view_margin;
+  settings.extrapolates = cell.parameters.extrapolates;
   settings.warm_up_s = experiment.warm_up_s;
   settings.duration_s = experiment.warm_up_s + experiment.duration_s;
   if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players))
@@ -191,6 +193,7 @@ Json VirtualRun::server_report() const {
   Json report{{"mode", cell_.mode},
               {"scheme", cell_.scheme},
               {"policy", cell_.policy},
+              {"threshold", cell_.parameters.threshold},
               {"clients", cell_.clients},
               {"seed", cell_.seed},
               {"tick_rate_hz", cell_.parameters.tick_rate_hz},
@@ -223,13 +226,12 @@ Json VirtualRun::bots_report() const {
   return report;
 }
 
-void VirtualRun::write_evidence(const std::string& server_file, const std::string& bots_file) const {
+game::ServerEvidence VirtualRun::server_evidence() const {
   game::ServerEvidence server = serving_.evidence().value();
   server.choice = choice_of(experiment_, cell_);
   server.scheme = cell_.scheme;
   server.policy = cell_.policy;
-  game::write_evidence(server_file, server);
-  loadgen::write_evidence(bots_file, crowd_.evidence().value());
+  return server;
 }
 
 void VirtualRun::end(Json& server_report) {
@@ -245,13 +247,18 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();
-  const std::string server_evidence = settings.directory / (name_of(cell) + ".server.jsonl"), bots_evidence = settings.directory / (name_of(cell) + ".bots.jsonl");
-  if (settings.wants_truth) run.write_evidence(server_evidence, bots_evidence);
+  const game::ServerEvidence server_evidence = settings.wants_truth ? run.server_evidence() : game::ServerEvidence();
+  const BotsEvidence bots_evidence = settings.wants_truth ? run.bots_evidence() : BotsEvidence();
   run.end(server);
   write_json(settings.directory / (name_of(cell) + ".server.json"), server);
   write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);
   judge(record, server, bots);
-  if (settings.wants_truth) add_truth(record, experiment, server_evidence, bots_evidence);
+  if (!settings.wants_truth) return;
+  if (!settings.keeps_evidence) return add_truth(record, experiment, server_evidence, bots_evidence);
+  const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"), bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
+  game::write_evidence(server_file, server_evidence);
+  write_evidence(bots_file, bots_evidence);
+  add_truth(record, experiment, server_file, bots_file);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ void Mirror::discover(rti::ObjectHandle object, rti::ObjectClassHandle object_cl
   if (known_.find(object) != nullptr) return;
   if (object_class == model_.entity) {
     known_[object] = {Kind::entity, static_cast<std::uint32_t>(entities_.size())};
-    entities_.push_back({.object = object, .shape = {}, .input = {}, .position = {}, .trajectory = {}, .motion = {}, .stamp = {}, .placed_s = 0.0, .is_foretold = false, .is_placed = false, .in_scope = false});
+    MirroredEntity& entity = entities_.emplace_back();
+    entity.object = object;
   } else if (object_class == model_.score) {
     known_[object].kind = Kind::score;
   } else if (object_class == model_.field) {

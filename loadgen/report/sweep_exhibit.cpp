@@ -38,7 +38,7 @@ std::vector<CellLine> curves_along(const Findings& findings, const ParameterKind
       else curve->groups.push_back(group);
     }
   const auto is_standard = [&](const CellLine& curve) { return is_at_first_values(findings.experiment, curve.groups.front().cell, &kind); };
-  std::erase_if(curves, [&](const CellLine& curve) { return curve.groups.size() < 2 && (kind.has(curve.groups.front().cell.scheme) || !is_standard(curve)); });
+  std::erase_if(curves, [&](const CellLine& curve) { return curve.groups.size() < 2 && (kind.has(curve.groups.front().cell) || !is_standard(curve)); });
   if (curves.size() > curves_max) std::erase_if(curves, [&](const CellLine& curve) { return !is_standard(curve); });
   for (CellLine& curve : curves)
     std::stable_sort(curve.groups.begin(), curve.groups.end(), [&](const CellGroup& a, const CellGroup& b) { return kind.of(a.cell.parameters) < kind.of(b.cell.parameters); });
@@ -89,7 +89,7 @@ PlotTable table_of(const std::vector<CellLine>& curves, const std::string& name,
   for (const CellLine& curve : curves)
     for (const CellGroup& group : curve.groups) {
       auto row = cell_values(curve, group);
-      if (kind) row.push_back(kind->has(group.cell.scheme) ? exact_number(kind->of(group.cell.parameters)) : "");
+      if (kind) row.push_back(kind->has(group.cell) ? exact_number(kind->of(group.cell.parameters)) : "");
       for (const FigureOf figure : {filter_precision, filter_recall, payload, churn, filter_cost}) append_interval(row, group.mean(figure));
       table.rows.push_back(std::move(row));
     }
@@ -108,7 +108,7 @@ std::string html_of(const std::vector<CellLine>& curves, const ParameterKind& ki
         return "<td>" + plain_number(mean ? std::optional(scale * mean->mean) : std::nullopt, digits) + "</td>";
       };
       html += std::string("<tr") + (i == 0 ? " class=\"first\"" : "") + "><td class=\"text\">" + escaped(curve.name) + "</td><td>" +
-              (kind.has(group.cell.scheme) ? value_text(kind, group.cell) : "\xE2\x80\x93") + "</td>" + shown(filter_precision, 1.0, 3) + shown(filter_recall, 1.0, 4) + shown(payload, 1e-3, 3) +
+              (kind.has(group.cell) ? value_text(kind, group.cell) : "\xE2\x80\x93") + "</td>" + shown(filter_precision, 1.0, 3) + shown(filter_recall, 1.0, 4) + shown(payload, 1e-3, 3) +
               shown(churn, 1.0, 3) + "</tr>\n";
     }
   return html + "</tbody></table></div>\n";
@@ -127,7 +127,7 @@ void add_sweep(Exhibit& exhibit, const Findings& findings, const ParameterKind& 
   const std::vector<CellLine> curves = curves_along(findings, kind);
   if (curves.empty()) return exhibit.add_absence(std::string(kind.axis) + ": no cell along it was held against truth.");
   const std::string along = std::string(", by ") + kind.axis;
-  const Label label = [&kind](const Cell& cell) { return kind.has(cell.scheme) ? value_text(kind, cell) : std::string(); };
+  const Label label = [&kind](const Cell& cell) { return kind.has(cell) ? value_text(kind, cell) : std::string(); };
   LinePlot both = plot_of(curves, recall_of_decisions, precision_of_decisions, "Precision against recall" + along, label);
   both.alternative = "The upper right corner is perfect. A curve is a scheme, its marks the parameter's values; a lone mark is a scheme that has no such parameter.";
   PlotTable table = table_of(curves, std::string("sweep-") + kind.key, "Precision, recall and bytes of each scheme along " + std::string(kind.axis), &kind);

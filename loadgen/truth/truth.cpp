@@ -242,27 +242,56 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
   return area;
 }
 
-void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file) {
+namespace {
+
+void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots) {
+  const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
+  TruthFigures figures = truth_of(server, bots, area);
+  figures.control_bytes_fraction = record.truth.control_bytes_fraction;
+  figures.fairness_jain = record.truth.fairness_jain;
+  record.truth = figures;
+}
+
+/// Under a virtual clock nothing takes time.
+void add_tick_costs(RunRecord& record, const game::ServerEvidence& server) {
+  std::vector<double> ticks_s;
+  for (const game::ServerEvidence::Tick& tick : server.ticks) ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
+  if (std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; })) record.tick_us = percentiles_us(std::move(ticks_s));
+}
+
+/// What goes wrong in `act` is why there are no figures, or why the run does not count.
+template <class Act>
+void record_trouble(RunRecord& record, const Act& act) {
   try {
-    const game::ServerEvidence server = game::read_server_evidence(server_file);
-    const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
-    record.truth.relevance = text_of(area);
-    std::vector<double> ticks_s;
-    for (const game::ServerEvidence::Tick& tick : server.ticks) ticks_s.push_back(tick.physics_s + tick.filter_s + tick.send_s);
-    const bool has_costs = std::any_of(ticks_s.begin(), ticks_s.end(), [](double tick_s) { return tick_s > 0.0; });
-    if (has_costs) record.tick_us = percentiles_us(std::move(ticks_s));  // under a virtual clock nothing takes time
-    const BotsEvidence bots = read_bots_evidence(bots_file);
-    TruthFigures figures = truth_of(server, bots, area);
-    figures.control_bytes_fraction = record.truth.control_bytes_fraction;
-    figures.fairness_jain = record.truth.fairness_jain;
-    record.truth = figures;
-    if (!bots.is_complete) record.truth.trouble = bots_file + ": more scopes changed than there was room for; what was delivered is not judged";
+    act();
   } catch (const DifferentGame& error) {
     record.valid = false;
     record.why_invalid += (record.why_invalid.empty() ? "" : "; ") + std::string(error.what());
   } catch (const std::exception& error) {
     record.truth.trouble = error.what();
   }
+}
+
+const char* const too_many_changes = "more scopes changed than there was room for; what was delivered is not judged";
+
+}  // namespace
+
+void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots) {
+  record_trouble(record, [&] {
+    judge(record, experiment, server, bots);
+    if (!bots.is_complete) record.truth.trouble = too_many_changes;
+  });
+}
+
+void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file) {
+  record_trouble(record, [&] {
+    const game::ServerEvidence server = game::read_server_evidence(server_file);
+    record.truth.relevance = text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
+    add_tick_costs(record, server);
+    const BotsEvidence bots = read_bots_evidence(bots_file);
+    judge(record, experiment, server, bots);
+    if (!bots.is_complete) record.truth.trouble = bots_file + ": " + too_many_changes;
+  });
 }
 
 }  // namespace rink::loadgen

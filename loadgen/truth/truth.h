@@ -25,5 +25,6 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 /// Reads both files and fills `record.truth` and `record.tick_us`. Evidence that is missing, truncated or altered leaves the figures absent and says why in
 /// `record.truth.trouble`; a game that ends elsewhere when it is played again makes the run invalid. Throws nothing.
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file);
-
+/// The same of evidence that is in memory, which is not rounded as files round it.
+void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots);
 }  // namespace rink::loadgen

@@ -30,6 +30,7 @@ std::vector<std::string> shipped() {
 class ShippedExperiment : public test::CommandTest, public testing::WithParamInterface<std::string> {
  protected:
   ShippedExperiment() : CommandTest("shipped-experiment") {}
+  void run_least_version_of(Experiment experiment);
   static Experiment load() { return load_experiment(test::source_folder() + "/scenes/experiments/" + GetParam() + ".toml", {}); }
 };
 
@@ -45,7 +46,7 @@ TEST_P(ShippedExperiment, WithSeveralCellsOfAGameComparesThemWithABaselineThatRu
   const std::vector<Cell> cells = cells_of(experiment);
   std::set<std::string> variants, compared;
   for (const Cell& cell : cells) {
-    if (cell.clients != cells.front().clients || cell.mode != cells.front().mode || cell.pucks != cells.front().pucks || cell.bats != cells.front().bats) continue;
+    if (cell.clients != cells.front().clients || cell.mode != cells.front().mode || cell.pucks != cells.front().pucks || cell.bats != cells.front().bats || part_of(experiment, cell.part).is_of_curves) continue;
     variants.insert(name_of(without_seed(cell)));
     const Cell baseline = baseline_of(cell, experiment.baseline_scheme, experiment.baseline_policy);
     if (baseline == cell) continue;
@@ -57,7 +58,15 @@ TEST_P(ShippedExperiment, WithSeveralCellsOfAGameComparesThemWithABaselineThatRu
 
 /// A few clients for a third of a second of virtual time: one cell for each of its modes and of its schemes.
 TEST_P(ShippedExperiment, RunsInItsLeastVersion) {
-  Experiment experiment = load();
+  const Experiment whole = load();
+  const std::vector<Experiment> itself{whole};
+  for (const Experiment& part : whole.parts.empty() ? itself : whole.parts) {
+    SCOPED_TRACE(part.part);
+    run_least_version_of(part);
+  }
+}
+
+void ShippedExperiment::run_least_version_of(Experiment experiment) {
   experiment.transport = TransportKind::virtual_time;
   experiment.clients = {4}, experiment.seeds = {1}, experiment.duration_s = 0.25, experiment.warm_up_s = 0.1;
   experiment.tick_rates_hz = {20.0};
@@ -65,7 +74,7 @@ TEST_P(ShippedExperiment, RunsInItsLeastVersion) {
   experiment.pucks = experiment.bats = {0};
   experiment.server_cores = {1};
   experiment.design = Design::matrix;
-  for (auto* list : {&experiment.view_fractions, &experiment.view_margins, &experiment.sweep_ticks, &experiment.cell_sizes}) *list = {list->back()};
+  for (auto* list : {&experiment.view_fractions, &experiment.view_margins, &experiment.sweep_ticks, &experiment.cell_sizes, &experiment.thresholds}) *list = {list->back()};
   experiment.policies = {experiment.policies.back()};
   RunnerSettings settings;
   settings.directory = folder_;
