@@ -205,12 +205,12 @@ std::vector<RunRecord> without_curves(const Experiment& experiment, std::span<co
 
 std::string equal_error_table(std::span<const EqualError> comparisons) {
   if (comparisons.empty()) return {};
-  std::string text = "\nhow much more rivals send at equal displayed error and equal recall, each along its own rates, thresholds and margins, in virtual time;\n"
-                     "95 % intervals over seeds\n";
+  std::string text = "\nhow much more rivals send at equal displayed error and equal recall, each along its own rates,\n"
+                     "thresholds and margins, in virtual time; 95 % intervals over seeds\n";
   for (const EqualError& each : comparisons) {
-    text += formatted("%s at %g Hz, %.40s, %u clients, %g ms of delay, recall %.4f (%s): payload %s kB/s, wire %s kB/s, displayed error %s mm\n", each.subject.c_str(), each.rate_hz, each.scheme.c_str(),
-                      each.clients, each.delay_ms, each.recall, each.is_own_recall ? "without a margin" : "by its margin", table_number(1e-3 * each.payload).c_str(), table_number(1e-3 * each.wire).c_str(),
-                      table_number(each.error_mm).c_str());
+    text += formatted("%.40s, %u clients, %g ms of delay, recall %.4f (%s)\n", each.scheme.c_str(), each.clients, each.delay_ms, each.recall, each.is_own_recall ? "without a margin" : "by its margin");
+    text += formatted("    %-20s payload %-20s wire %-20s displayed error %s mm, at %g Hz\n", each.subject.c_str(), (table_number(1e-3 * each.payload) + " kB/s").c_str(),
+                      (table_number(1e-3 * each.wire) + " kB/s").c_str(), table_number(each.error_mm).c_str(), each.rate_hz);
     for (const RivalRatio& rival : each.rivals)
       text += formatted("    %-20s payload %-20s wire %-20s", rival.policy.c_str(), ratio_text(rival.payload).c_str(), ratio_text(rival.wire).c_str()) + note(rival.end) + "\n";
   }

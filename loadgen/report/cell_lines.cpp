@@ -29,7 +29,7 @@ const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = [] {
     std::vector<Setting> list;
     for (const ParameterKind& kind : parameter_kinds())
-      list.push_back({[kind](const Cell& cell) { return kind.scale * kind.of(cell.parameters); }, kind.before, kind.scale == 100.0 ? " %" : kind.after});
+      if (!kind.is_switch) list.push_back({[kind](const Cell& cell) { return kind.scale * kind.of(cell.parameters); }, kind.before, kind.scale == 100.0 ? " %" : kind.after});
     list.push_back({[](const Cell& cell) { return static_cast<double>(cell.pucks); }, "", " pucks"});
     list.push_back({[](const Cell& cell) { return static_cast<double>(cell.bats); }, "", " bats"});
     list.push_back({[](const Cell& cell) { return static_cast<double>(cell.server_cores); }, "", " cores"});
@@ -50,11 +50,12 @@ bool differs(const std::vector<CellLine>& lines, const std::string& scheme, Valu
 
 std::string name_among(const std::vector<CellLine>& lines, const Cell& cell) {
   std::string name = cell.scheme;
-  if (differs(lines, "", [](const Cell& other) { return other.policy; })) name += ", " + cell.policy;
+  if (differs(lines, "", policy_name)) name += ", " + policy_name(cell);
   for (const Setting& setting : settings()) {
     if (differs(lines, cell.scheme, setting.of)) name += std::string(", ") + setting.before + short_number(setting.of(cell)) + setting.after;
   }
   if (differs(lines, "", [](const Cell& other) { return other.mode; })) name += ", " + cell.mode;
+  if (differs(lines, "", [](const Cell& other) { return other.part; })) name += ", " + cell.part;
   return name;
 }
 
@@ -71,7 +72,7 @@ void name_and_style(std::vector<CellLine>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Cell& cell = lines[i].groups.front().cell;
     lines[i].name = name_among(lines, cell);
-    lines[i].style = {place(schemes, cell.scheme), place(policies, cell.policy), i};
+    lines[i].style = {place(schemes, cell.scheme), place(policies, policy_name(cell)), i};
   }
   if (schemes.size() > 1) return;
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].style.colour = i;  // of one scheme, colours tell what differs

@@ -31,6 +31,11 @@ std::vector<std::string> cell_values(const CellLine& line, const CellGroup& grou
 std::vector<CellLine> plotted_lines(const Findings& findings) {
   constexpr std::size_t lines_max = 12;
   std::vector<CellLine> lines = findings.lines;
+  if (!findings.experiment.parts.empty() && !lines.empty()) {
+    const std::string first = lines.front().groups.front().cell.part;
+    std::erase_if(lines, [&first](const CellLine& line) { return line.groups.front().cell.part != first; });
+    name_and_style(lines);
+  }
   if (lines.size() <= lines_max) return lines;
   std::erase_if(lines, [&findings](const CellLine& line) { return !is_at_first_values(findings.experiment, line.groups.front().cell); });
   name_and_style(lines);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/equal_error.h"
 #include "loadgen/experiment.h"
 #include "loadgen/histogram.h"
 #include "loadgen/report/cell_lines.h"
@@ -42,7 +43,7 @@ struct Exhibit {
 /// The columns that every table by cell begins with, and their values.
 std::vector<std::string> cell_columns();
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
-/// The lines that plots over clients draw: all, or where a sweep makes too many to tell apart, those with the first value of every parameter.
+/// The lines that plots over clients draw: all, of several parts those of the first, or where a sweep makes too many to tell apart, those with the first value of every parameter.
 std::vector<CellLine> plotted_lines(const Findings& findings);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
@@ -53,6 +54,9 @@ Exhibit traffic_exhibit(const Findings& findings);
 Exhibit modes_exhibit(const Findings& findings);
 /// Bytes against error, and what filter and policy gain.
 Exhibit gains_exhibit(const Findings& findings);
+/// Rivals at equal displayed error and recall, which must not be empty, and the curves of `runs` behind them; and the best of them in a sentence, empty if there is none.
+Exhibit equal_error_exhibit(const Experiment& experiment, std::span<const RunRecord> runs, const std::vector<EqualError>& comparisons);
+std::string equal_error_headline(const std::vector<EqualError>& comparisons);
 /// Precision against recall.
 Exhibit relevance_exhibit(const Findings& findings);
 /// Bytes against the recall and against the precision of the filter's decisions, for each line that is drawn; nothing if no run was held against truth.

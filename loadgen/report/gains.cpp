@@ -11,7 +11,7 @@ namespace {
 
 /// Whether the two play the same game for the same crowd.
 bool is_comparable(const Cell& a, const Cell& b) {
-  return a.mode == b.mode && a.clients == b.clients && a.pucks == b.pucks && a.bats == b.bats && a.server_cores == b.server_cores;
+  return a.mode == b.mode && a.part == b.part && a.clients == b.clients && a.pucks == b.pucks && a.bats == b.bats && a.server_cores == b.server_cores;
 }
 
 const CellGroup* baseline_for(const Findings& findings, const Cell& cell) {

@@ -45,13 +45,32 @@ std::string rates_text(const Experiment& experiment) {
   return text;
 }
 
+std::string transport_text(const Experiment& experiment) {
+  if (experiment.transport != TransportKind::virtual_time) return std::string("processes over ") + to_string(experiment.transport);
+  return "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other";
+}
+
+/// What each part of which there are rows differs in.
+std::string parts_text(const Experiment& experiment, std::span<const RunRecord> runs) {
+  std::string text = "Scene " + experiment.scene + ". ";
+  for (const Experiment& part : experiment.parts) {
+    std::size_t count = 0, valid = 0;
+    for (const RunRecord& run : runs)
+      if (run.cell.part == part.part) ++count, valid += run.valid;
+    if (count == 0) continue;
+    text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " + short_number(part.duration_s) + " s measured after " + short_number(part.warm_up_s) + " s of warm-up, " +
+            view_text(part) + "; " + std::to_string(count) + " of " + std::to_string(cells_of(part).size()) + " cells run, " + std::to_string(valid) + " valid. ";
+  }
+  return text + "Plots over clients are of the first part.";
+}
+
 std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {
+  if (!experiment.parts.empty()) return parts_text(experiment, runs);
   const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
   std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
                      rates_text(experiment) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
                      view_text(experiment) + "; ";
-  if (experiment.transport != TransportKind::virtual_time) text += std::string("processes over ") + to_string(experiment.transport) + "; ";
-  else text += "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other; ";
+  text += transport_text(experiment) + "; ";
   // A search runs cells of its own choice beside those of the experiment.
   const std::vector<Cell> cells = cells_of(experiment);
   const bool is_plan = std::all_of(runs.begin(), runs.end(), [&cells](const RunRecord& run) { return std::find(cells.begin(), cells.end(), run.cell) != cells.end(); });
@@ -80,8 +99,8 @@ constexpr const char* definitions =
     "time: the same at the instant that the client's newest state describes. Latencies count from the instant an action was due. A percentile is shown only if ten or more samples lie beyond it, and "
     "averaged only if every valid replication has it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by seed.</p>\n";
 
-std::string introduction_of(const Findings& findings) {
-  const std::string headline = headline_of(findings);
+std::string introduction_of(const Findings& findings, const std::vector<EqualError>& comparisons) {
+  const std::string headline = comparisons.empty() ? headline_of(findings) : equal_error_headline(comparisons);
   std::string html = headline.empty() ? "" : "<p class=\"headline\">" + escaped(headline) + "</p>\n";
   html += "<p class=\"faint\">" + escaped(setting_text(findings.experiment, findings.runs)) + "</p>\n";
   if (!findings.relevance.empty()) html += "<p class=\"faint\">Relevant to a player: " + escaped(findings.relevance) + ".</p>\n";
@@ -92,8 +111,11 @@ std::string introduction_of(const Findings& findings) {
 
 Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies,
                  std::span<const ReportSection> more_sections) {
-  const Findings findings{experiment, runs, latencies, lines_of(runs), relevance_of(runs)};
+  const std::vector<RunRecord> rows = without_curves(experiment, runs);
+  const std::vector<EqualError> comparisons = equal_errors_of(experiment, runs);
+  const Findings findings{experiment, rows, latencies, lines_of(rows), relevance_of(rows)};
   Page page;
+  if (!comparisons.empty()) page.add("equal-error", "Rivals at equal error", equal_error_exhibit(experiment, runs, comparisons));
   page.add("traffic", "Traffic", traffic_exhibit(findings));
   if (has_several_modes(runs)) page.add("modes", "With and without a server", modes_exhibit(findings));
   page.add("gains", "Bytes against error", gains_exhibit(findings));
@@ -110,7 +132,7 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   page.add("definitions", "Definitions", {definitions});
   page.add("reproduce", "How to reproduce", reproduction(experiment, provenance));
   page.add("provenance", "Provenance", provenance_list(provenance));
-  return std::move(page).finished(experiment.name + ": interest management compared", introduction_of(findings));
+  return std::move(page).finished(experiment.name + ": interest management compared", introduction_of(findings, comparisons));
 }
 
 }  // namespace rink::loadgen

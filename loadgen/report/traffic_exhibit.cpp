@@ -9,7 +9,6 @@
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> on_the_wire(const RunRecord& run) { return run.wire_bytes_per_client_per_s; }
 
 /// Who sends most and least at the largest client count, in a sentence.
 std::string extremes(const Findings& findings, FigureOf figure) {
