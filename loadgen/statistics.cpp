@@ -1,6 +1,7 @@
-// Student intervals of means and of log ratios.
+// Student intervals of means and of log ratios, within what a figure can be.
 #include "loadgen/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,14 +18,19 @@ double mean_of(std::span<const double> values) {
 
 }  // namespace
 
-std::optional<Interval> interval_of_mean(std::span<const double> values) {
+std::optional<Interval> interval_of_mean(std::span<const double> values, Scale scale) {
   if (values.size() < 2) return std::nullopt;
   const auto count = static_cast<double>(values.size());
-  const double mean = mean_of(values);
+  const auto [least, most] = std::ranges::minmax(values);
+  const double mean = std::clamp(mean_of(values), least, most);  // of equal values the sum may round
   double squares = 0.0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   const double half = student_t_quantile(0.5 + 0.5 * interval_confidence, count - 1.0) * std::sqrt(squares / (count - 1.0) / count);
-  return Interval{mean - half, mean + half};
+  if (half == 0.0) return Interval{mean, mean};
+  if (scale == Scale::unbounded || least < 0.0) return Interval{mean - half, mean + half};
+  if (scale == Scale::positive || most > 1.0) return Interval{mean * std::exp(-half / mean), mean * std::exp(half / mean)};
+  const double odds = std::exp(half / (mean * (1.0 - mean)));  // may be infinite: from 0 to 1, then
+  return Interval{mean / (mean + (1.0 - mean) * odds), mean / (mean + (1.0 - mean) / odds)};
 }
 
 Difference Ratio::difference() const {
@@ -47,7 +53,7 @@ std::optional<Ratio> ratio_of(std::span<const std::pair<double, double>> pairs) 
   }
   if (logs.empty()) return std::nullopt;
   Ratio ratio{std::exp(mean_of(logs)), std::nullopt, logs.size()};
-  if (const auto interval = interval_of_mean(logs)) ratio.interval = Interval{std::exp(interval->low), std::exp(interval->high)};
+  if (const auto interval = interval_of_mean(logs, Scale::unbounded)) ratio.interval = Interval{std::exp(interval->low), std::exp(interval->high)};
   return ratio;
 }
 

@@ -26,7 +26,7 @@ std::optional<double> as_number(const std::optional<Count>& count) {
 constexpr std::array all_figures{
     Figure{"entities", [](const RunRecord& run) { return as_number(run.entities); }},
     Figure{"ticks", [](const RunRecord& run) { return as_number(run.ticks); }},
-    Figure{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }},
+    Figure{"ticks_on_time_fraction", [](const RunRecord& run) { return run.ticks_on_time_fraction; }, Scale::fraction},
     Figure{"down_bytes_per_client_per_s", [](const RunRecord& run) { return run.down_bytes_per_client_per_s; }},
     Figure{"up_bytes_per_client_per_s", [](const RunRecord& run) { return run.up_bytes_per_client_per_s; }},
     Figure{"wire_bytes_per_client_per_s", [](const RunRecord& run) { return run.wire_bytes_per_client_per_s; }},
@@ -47,13 +47,13 @@ constexpr std::array all_figures{
     Figure{"server_rss_bytes", [](const RunRecord& run) { return as_number(run.server_rss_bytes); }},
     Figure{"segments_per_s", [](const RunRecord& run) { return run.segments_per_s; }},
     Figure{"writes_per_s", [](const RunRecord& run) { return run.writes_per_s; }},
-    Figure{"late_sends_fraction", [](const RunRecord& run) { return run.late_sends_fraction; }},
+    Figure{"late_sends_fraction", [](const RunRecord& run) { return run.late_sends_fraction; }, Scale::fraction},
     Figure{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},
     Figure{"bots_cpu_s", [](const RunRecord& run) { return run.bots_cpu_s; }},
-    Figure{"filter_precision", [](const RunRecord& run) { return run.truth.filter_precision; }},
-    Figure{"filter_recall", [](const RunRecord& run) { return run.truth.filter_recall; }},
-    Figure{"delivered_precision", [](const RunRecord& run) { return run.truth.delivered_precision; }},
-    Figure{"delivered_recall", [](const RunRecord& run) { return run.truth.delivered_recall; }},
+    Figure{"filter_precision", [](const RunRecord& run) { return run.truth.filter_precision; }, Scale::fraction},
+    Figure{"filter_recall", [](const RunRecord& run) { return run.truth.filter_recall; }, Scale::fraction},
+    Figure{"delivered_precision", [](const RunRecord& run) { return run.truth.delivered_precision; }, Scale::fraction},
+    Figure{"delivered_recall", [](const RunRecord& run) { return run.truth.delivered_recall; }, Scale::fraction},
     Figure{"missed_interactions", [](const RunRecord& run) { return as_number(run.truth.missed_interactions); }},
     Figure{"late_entry_ms_p50", [](const RunRecord& run) { return run.truth.late_entry_ms.p50; }},
     Figure{"late_entry_ms_p90", [](const RunRecord& run) { return run.truth.late_entry_ms.p90; }},
@@ -68,11 +68,11 @@ constexpr std::array all_figures{
     Figure{"displayed_error_mm_p99", [](const RunRecord& run) { return run.truth.displayed_error_mm.p99; }},
     Figure{"displayed_error_mm_max", [](const RunRecord& run) { return run.truth.displayed_error_mm.max; }},
     Figure{"churn_per_client_per_s", [](const RunRecord& run) { return run.truth.churn_per_client_per_s; }},
-    Figure{"flapping_fraction", [](const RunRecord& run) { return run.truth.flapping_fraction; }},
-    Figure{"wasted_bytes_fraction", [](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }},
-    Figure{"control_bytes_fraction", [](const RunRecord& run) { return run.truth.control_bytes_fraction; }},
-    Figure{"fairness_jain", [](const RunRecord& run) { return run.truth.fairness_jain; }},
-    Figure{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }},
+    Figure{"flapping_fraction", [](const RunRecord& run) { return run.truth.flapping_fraction; }, Scale::fraction},
+    Figure{"wasted_bytes_fraction", [](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }, Scale::fraction},
+    Figure{"control_bytes_fraction", [](const RunRecord& run) { return run.truth.control_bytes_fraction; }, Scale::fraction},
+    Figure{"fairness_jain", [](const RunRecord& run) { return run.truth.fairness_jain; }, Scale::fraction},
+    Figure{"bots_cpu_share", [](const RunRecord& run) { return run.health.bots_cpu_share; }, Scale::fraction},
     Figure{"histogram_ns_per_record", [](const RunRecord& run) { return run.health.histogram_ns_per_record; }},
     Figure{"tick_us_p50", [](const RunRecord& run) { return run.tick_us.p50; }},
     Figure{"tick_us_p90", [](const RunRecord& run) { return run.tick_us.p90; }},
@@ -103,7 +103,7 @@ Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>
   for (const double value : values) squares += (value - mean) * (value - mean);
   Statistic result{mean, std::nullopt, *std::min_element(values.begin(), values.end()), *std::max_element(values.begin(), values.end()), std::nullopt};
   if (values.size() > 1) result.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
-  result.interval = interval_of_mean(values);
+  result.interval = interval_of_mean(values, figure.scale);
   return result;
 }
 

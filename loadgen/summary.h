@@ -22,10 +22,11 @@ struct Statistic {
   std::optional<Interval> interval;  ///< of the mean; absent for fewer than two runs
 };
 
-/// One figure of a run: the column's name in summary.csv, its unit being part of it, and how to read it.
+/// One figure of a run: the column's name in summary.csv, its unit being part of it, how to read it, and what values it can have: but for fractions 0 or more.
 struct Figure {
   const char* name;
   std::optional<double> (*of)(const RunRecord&);
+  Scale scale = Scale::positive;
 };
 
 /// All figures that are summarised, in the order of summary.csv.

@@ -8,7 +8,6 @@
 
 #include "loadgen/parameter.h"
 #include "loadgen/report/text.h"
-#include "loadgen/statistics.h"
 
 namespace rink::loadgen {
 namespace {
@@ -78,12 +77,12 @@ void name_and_style(std::vector<CellLine>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i].style.colour = i;  // of one scheme, colours tell what differs
 }
 
-MeanInterval mean_interval(const std::vector<double>& values) {
+MeanInterval mean_interval(const std::vector<double>& values, Scale scale) {
   assert(!values.empty());
   double sum = 0.0;
   for (const double value : values) sum += value;
   MeanInterval result{sum / static_cast<double>(values.size())};
-  if (const auto interval = interval_of_mean(values)) result.interval = {interval->low, interval->high};
+  if (const auto interval = interval_of_mean(values, scale)) result.interval = {interval->low, interval->high};
   return result;
 }
 
@@ -99,7 +98,7 @@ std::vector<double> CellGroup::values(FigureOf figure) const {
 std::optional<MeanInterval> CellGroup::mean(FigureOf figure) const {
   const std::vector<double> found = values(figure);
   if (found.empty()) return std::nullopt;
-  return mean_interval(found);
+  return mean_interval(found, figure.scale);
 }
 
 std::vector<CellLine> lines_of(std::span<const RunRecord> runs) {

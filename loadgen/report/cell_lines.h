@@ -1,6 +1,7 @@
 // Runs sorted into what plots draw: lines over client counts, each point the replications of one cell.
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,18 +9,31 @@
 
 #include "loadgen/report/svg.h"
 #include "loadgen/run_record.h"
+#include "loadgen/statistics.h"
 
 namespace rink::loadgen {
 
-using FigureOf = std::optional<double> (*)(const RunRecord&);
+/// How to read a figure of a run, and what values it can have.
+class FigureOf {
+ public:
+  using Reader = std::optional<double> (*)(const RunRecord&);
+  template <std::convertible_to<Reader> Read>
+  constexpr FigureOf(Read read, Scale values = Scale::positive) : scale(values), read_(read) {}  // a function that reads is a figure
+  std::optional<double> operator()(const RunRecord& run) const { return read_(run); }
 
-/// A mean with the 95 % t interval of it; the interval is absent for a single value.
+  Scale scale;
+
+ private:
+  Reader read_;
+};
+
+/// A mean with the 95 % interval of it (`interval_of_mean`), which is absent for a single value.
 struct MeanInterval {
   double mean = 0.0;
   std::optional<std::pair<double, double>> interval{};
 };
 /// Of values that are not empty.
-MeanInterval mean_interval(const std::vector<double>& values);
+MeanInterval mean_interval(const std::vector<double>& values, Scale scale = Scale::positive);
 
 /// The valid replications of one cell, seeds apart.
 struct CellGroup {

@@ -14,7 +14,7 @@ constexpr double mark_share_least = 0.3;  // below that the budget would press t
 std::optional<double> physics(const RunRecord& run) { return run.physics_us_per_tick; }
 std::optional<double> filter(const RunRecord& run) { return run.filter_us_per_tick; }
 std::optional<double> send(const RunRecord& run) { return run.send_us_per_tick; }
-std::optional<double> on_time(const RunRecord& run) { return run.ticks_on_time_fraction; }
+constexpr FigureOf on_time{[](const RunRecord& run) { return run.ticks_on_time_fraction; }, Scale::fraction};
 
 constexpr FigureOf parts[] = {physics, filter, send};
 

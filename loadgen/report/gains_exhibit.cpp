@@ -10,7 +10,7 @@
 namespace rink::loadgen {
 namespace {
 
-std::optional<double> matched_rms(const RunRecord& run) { return run.truth.position_error_mm.rms; }
+constexpr FigureOf matched_rms = [](const RunRecord& run) { return run.truth.position_error_mm.rms; };
 
 void add_scatter(Exhibit& exhibit, const Findings& findings) {
   LinePlot plot{"Payload against displayed error", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};

@@ -46,7 +46,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
-std::optional<double> delivered_precision(const RunRecord& run) { return run.truth.delivered_precision; }
+constexpr FigureOf delivered_precision{[](const RunRecord& run) { return run.truth.delivered_precision; }, Scale::fraction};
 
 struct Quality {
   const char* name;
@@ -62,10 +62,10 @@ constexpr Quality qualities[] = {
     {"missed interactions", [](const RunRecord& run) { return run.truth.missed_interactions ? std::optional(static_cast<double>(*run.truth.missed_interactions)) : std::nullopt; }, 1.0},
     {"late entry p99 ms", [](const RunRecord& run) { return run.truth.late_entry_ms.p99; }, 1.0},
     {"changes of scope per client and s", [](const RunRecord& run) { return run.truth.churn_per_client_per_s; }, 1.0},
-    {"flapping %", [](const RunRecord& run) { return run.truth.flapping_fraction; }, 100.0},
-    {"wasted bytes %", [](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }, 100.0},
-    {"control bytes %", [](const RunRecord& run) { return run.truth.control_bytes_fraction; }, 100.0},
-    {"fairness (Jain)", [](const RunRecord& run) { return run.truth.fairness_jain; }, 1.0},
+    {"flapping %", {[](const RunRecord& run) { return run.truth.flapping_fraction; }, Scale::fraction}, 100.0},
+    {"wasted bytes %", {[](const RunRecord& run) { return run.truth.wasted_bytes_fraction; }, Scale::fraction}, 100.0},
+    {"control bytes %", {[](const RunRecord& run) { return run.truth.control_bytes_fraction; }, Scale::fraction}, 100.0},
+    {"fairness (Jain)", {[](const RunRecord& run) { return run.truth.fairness_jain; }, Scale::fraction}, 1.0},
 };
 
 /// One row per cell, with the columns that any cell has.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t curves_max = 12;
 
-std::optional<double> churn(const RunRecord& run) { return run.truth.churn_per_client_per_s; }
-std::optional<double> filter_cost(const RunRecord& run) { return run.filter_us_per_tick; }
+constexpr FigureOf churn = [](const RunRecord& run) { return run.truth.churn_per_client_per_s; };
+constexpr FigureOf filter_cost = [](const RunRecord& run) { return run.filter_us_per_tick; };
 
 bool is_judged(const CellGroup& group) { return group.mean(filter_precision) && group.mean(filter_recall) && group.mean(payload); }
 

@@ -10,6 +10,7 @@
 #include "canned_reports.h"
 #include "loadgen/report/gains.h"
 #include "loadgen/report/report.h"
+#include "loadgen/report/run_figures.h"
 #include "loadgen/report/saturation_exhibit.h"
 #include "tests/temporary_folder.h"
 
@@ -103,11 +104,22 @@ TEST(Gains, ADifferenceWithinTheScatterIsCalledNotSignificant) {
 }
 
 TEST(MeanInterval, IsStudentsOverReplications) {
-  const MeanInterval mean = mean_interval({1.0, 2.0, 3.0});
+  const MeanInterval mean = mean_interval({1.0, 2.0, 3.0}, Scale::unbounded);
   EXPECT_DOUBLE_EQ(mean.mean, 2.0);
   ASSERT_TRUE(mean.interval);
   EXPECT_NEAR(mean.interval->second - 2.0, 4.302652729911275 / std::sqrt(3.0), 1e-9);  // t at 0.975 with two degrees of freedom, tables
   EXPECT_FALSE(mean_interval({1.0}).interval);
+}
+
+TEST(MeanInterval, OfAFigureKeepsWithinWhatTheFigureCanBe) {
+  auto runs = two_by_two();
+  runs.push_back(runs[0]), runs[0].truth.filter_recall = 1.0, runs.back().truth.filter_recall = 0.98;
+  runs[0].down_bytes_per_client_per_s = 10.0, runs.back().down_bytes_per_client_per_s = 30.0;
+  const auto lines = lines_of(runs);
+  const MeanInterval recall = lines[0].groups[0].mean(filter_recall).value(), bytes = lines[0].groups[0].mean(payload).value();
+  EXPECT_LT(recall.interval.value().second, 1.0);
+  EXPECT_GT(recall.interval->second, recall.mean);
+  EXPECT_GT(bytes.interval.value().first, 0.0);
 }
 
 TEST(CellLines, AFigureThatOneRunLacksHasNoMean) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -25,11 +27,11 @@ TEST(Statistics, StudentsQuantilesAreThoseOfTheTables) {
 
 TEST(Statistics, AnIntervalIsMeanPlusMinusTTimesStandardError) {
   const std::vector<double> values{30.0, 36.0, 33.0};  // mean 33, deviation 3, error sqrt(3), t 4.302653
-  const auto interval = interval_of_mean(values);
+  const auto interval = interval_of_mean(values, Scale::unbounded);
   ASSERT_TRUE(interval);
   EXPECT_NEAR(interval->low, 33.0 - 4.302652730 * std::sqrt(3.0), 1e-6);
   EXPECT_NEAR(interval->high, 33.0 + 4.302652730 * std::sqrt(3.0), 1e-6);
-  EXPECT_FALSE(interval_of_mean(std::span(values).first(1)));
+  EXPECT_FALSE(interval_of_mean(std::span(values).first(1), Scale::unbounded));
 }
 
 TEST(Statistics, NineteenOfTwentyIntervalsOfNormalSamplesHoldTheMean) {
@@ -41,10 +43,58 @@ TEST(Statistics, NineteenOfTwentyIntervalsOfNormalSamplesHoldTheMean) {
     for (int trial = 0; trial < trials; ++trial) {
       std::vector<double> values(size);
       for (double& value : values) value = normal(random);
-      covered += interval_of_mean(values)->contains(7.0) ? 1 : 0;
+      covered += interval_of_mean(values, Scale::unbounded)->contains(7.0) ? 1 : 0;
     }
     const double sampling_error = std::sqrt(0.95 * 0.05 / trials);
     EXPECT_NEAR(static_cast<double>(covered) / trials, 0.95, 4.0 * sampling_error) << "samples of " << size << ", seed " << size;
+  }
+}
+
+TEST(Statistics, NoIntervalPassesWhatItsFigureCanBe) {
+  const std::vector<double> recalls{1.0, 0.98, 1.0}, bytes{10.0, 30.0}, late{0.0, 0.0, 0.02}, over{0.9, 1.1};
+  EXPECT_GT(interval_of_mean(recalls, Scale::unbounded)->high, 1.0) << "this is what would be drawn beyond recall 1";
+  EXPECT_LT(interval_of_mean(bytes, Scale::unbounded)->low, 0.0);
+  const double mean = 2.98 / 3.0, half = 4.302652730 * 0.02 / 3.0, odds = std::exp(half / (mean * (1.0 - mean)));  // deviation 0.02 / sqrt(3), error 0.02 / 3
+  EXPECT_NEAR(interval_of_mean(recalls, Scale::fraction)->high, 1.0 / (1.0 + (1.0 - mean) / mean / odds), 1e-9);
+  EXPECT_NEAR(interval_of_mean(recalls, Scale::fraction)->low, 1.0 / (1.0 + (1.0 - mean) / mean * odds), 1e-9);
+  EXPECT_NEAR(interval_of_mean(bytes, Scale::positive)->low, 20.0 * std::exp(-12.706204736 * 10.0 / 20.0), 1e-9);
+  EXPECT_NEAR(interval_of_mean(bytes, Scale::positive)->high, 20.0 * std::exp(12.706204736 * 10.0 / 20.0), 1e-3);
+  EXPECT_GT(interval_of_mean(late, Scale::fraction)->low, 0.0);
+  EXPECT_GT(interval_of_mean(over, Scale::fraction)->high, 1.0) << "a share of processor time measured above 1";
+  for (const double edge : {0.0, 1.0}) EXPECT_EQ(interval_of_mean(std::vector<double>(3, edge), Scale::fraction), (Interval{edge, edge}));
+  EXPECT_EQ(interval_of_mean(std::vector<double>(3, 0.1), Scale::fraction), (Interval{0.1, 0.1}));
+}
+
+/// How many of 4,000 samples of `size`, drawn by `draw`, have an interval that contains `mean`; every interval must lie within [0, most] and contain its sample's mean.
+template <class Draw>
+double coverage(Scale scale, std::size_t size, double mean, double most, Draw draw) {
+  constexpr int trials = 4'000;
+  std::mt19937_64 random(size);
+  int covered = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> values(size);
+    for (double& value : values) value = draw(random);
+    const Interval interval = interval_of_mean(values, scale).value();
+    covered += interval.contains(mean) ? 1 : 0;
+    EXPECT_GE(interval.low, 0.0);
+    EXPECT_LE(interval.high, most);
+    EXPECT_TRUE(interval.contains(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(size))) << "size and seed " << size;
+  }
+  return static_cast<double>(covered) / trials;
+}
+
+TEST(Statistics, IntervalsOfFractionsAndOfPositiveFiguresCoverTheArithmeticMean) {
+  const auto recall = [](std::mt19937_64& random) {  // beta(95, 5), mean 0.95, deviation 0.022
+    const double there = std::gamma_distribution<double>(95.0)(random), missing = std::gamma_distribution<double>(5.0)(random);
+    return there / (there + missing);
+  };
+  const auto age = [](std::mt19937_64& random) { return std::lognormal_distribution<double>(0.0, 0.3)(random); };
+  const auto bytes = [](std::mt19937_64& random) { return std::normal_distribution<double>(1.0, 0.1)(random); };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const std::size_t size : {3u, 5u, 10u, 20u}) {
+    EXPECT_NEAR(coverage(Scale::fraction, size, 0.95, 1.0, recall), 0.95, 0.02) << size;
+    EXPECT_NEAR(coverage(Scale::positive, size, std::exp(0.045), infinity, age), 0.95, 0.02) << size;
+    EXPECT_NEAR(coverage(Scale::positive, size, 1.0, infinity, bytes), 0.95, 0.02) << size;
   }
 }
 

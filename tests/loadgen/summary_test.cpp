@@ -45,7 +45,7 @@ TEST(Summary, MeansAndDeviationsAreThoseOfTheValidRuns) {
   const Statistic& grid = rows[1].of("down_bytes_per_client_per_s");
   EXPECT_DOUBLE_EQ(grid.mean.value(), 33.0);
   EXPECT_DOUBLE_EQ(grid.deviation.value(), 3.0);
-  EXPECT_NEAR(grid.interval->high, 33.0 + 4.302652730 * std::sqrt(3.0), 1e-6);
+  EXPECT_NEAR(grid.interval->high, 33.0 * std::exp(4.302652730 * std::sqrt(3.0) / 33.0), 1e-6);
 }
 
 TEST(Summary, AFigureThatOneValidRunLacksIsAbsent) {
