@@ -24,6 +24,7 @@ Json bots_report(const BotCrowd& crowd, const std::string& why_invalid) {
           {"keys_unanswered", crowd.unanswered_keys()},
           {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
           {"send_lateness_ms", measured.send_lateness.to_json()},
+          {"schedule_trouble", measured.schedule_trouble()},
           {"federates_lost", crowd.lost_count()},
           {"bytes_received_by_bot", crowd.bytes_received_by_bot()},
           {"memory_bytes_per_client", crowd.client_memory_bytes() / std::max<std::size_t>(1, crowd.bot_count())},

@@ -57,6 +57,13 @@ double student_t_quantile(double probability, double freedom) {
   return probability < 0.5 ? -high : high;
 }
 
+double binomial_tail(std::uint64_t count, std::uint64_t trials, double probability) {
+  assert(probability > 0.0 && probability < 1.0);
+  if (count == 0) return 1.0;
+  if (count > trials) return 0.0;
+  return regularized_beta(probability, static_cast<double>(count), static_cast<double>(trials - count + 1));
+}
+
 double f_tail(double f, double above, double below) {
   assert(f >= 0.0 && above > 0.0 && below > 0.0);
   return regularized_beta(below / (below + above * f), 0.5 * below, 0.5 * above);

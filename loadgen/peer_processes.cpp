@@ -23,7 +23,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double late_fraction_max = 0.01;    // as of bots: more late keys, and the plan was not what was played
 constexpr int peer_is_gone = 16;              // rink peer's exit status when it ends for another's sake
 
 class PeerProcesses {
@@ -218,9 +217,6 @@ void PeerProcesses::run(RunRecord& record) {
   PeerTotals sums = totals();
   sums.entities = start.entities().size();
   replay(measured, sums);
-  if (static_cast<double>(measured.late_sends) > late_fraction_max * static_cast<double>(measured.keys_sent))
-    sums.trouble = "the players could not keep their schedule: " + std::to_string(measured.late_sends) + " of " + std::to_string(measured.keys_sent) + " keys went out more than " +
-                   std::to_string(static_cast<int>(Probe::late_s * 1e3)) + " ms late";
   double sum_s = 0.0, busiest_s = 0.0;
   for (const Process& process : processes_) sum_s += process.ending()->cpu_s, busiest_s = std::max(busiest_s, process.ending()->cpu_s);
   record.nodes.busiest_cpu_s = busiest_s, record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());

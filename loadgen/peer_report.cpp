@@ -113,6 +113,7 @@ Json players_report(const Cell& cell, const PeerTotals& totals, const Measuremen
           {"keys_unanswered", totals.keys_unanswered},
           {"late_sends_fraction", static_cast<double>(measured.late_sends) / std::max<double>(1.0, static_cast<double>(measured.keys_sent))},
           {"send_lateness_ms", measured.send_lateness.to_json()},
+          {"schedule_trouble", measured.schedule_trouble()},
           {"federates_lost", 0},
           {"bytes_received_by_bot", totals.measured.received},
           {"total_bytes_received", totals.whole_received},

@@ -3,7 +3,15 @@
 
 #include <algorithm>
 
+#include "loadgen/distributions.h"
+
 namespace rink::loadgen {
+
+std::string Measurements::schedule_trouble() const {
+  constexpr double late_fraction_max = 0.01, level = 0.01;
+  if (binomial_tail(late_sends, keys_sent, late_fraction_max) >= level) return "";
+  return std::to_string(late_sends) + " of " + std::to_string(keys_sent) + " keys went out more than " + std::to_string(static_cast<int>(Probe::late_s * 1e3)) + " ms late";
+}
 
 void Probe::key_sent(double due_s, double sent_s, bool is_counted) {
   waiting_.push_back({due_s, is_counted});

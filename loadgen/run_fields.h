@@ -93,6 +93,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("part", run.cell.part);
   line.field("threshold", run.cell.parameters.threshold);
   line.field("extrapolate", run.cell.parameters.extrapolates);
+  line.text_or_null("keys_trouble", run.keys_trouble);
 }
 
 }  // namespace rink::loadgen

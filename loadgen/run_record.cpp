@@ -177,10 +177,15 @@ void fill_from_bots(RunRecord& record, ReportReader& bots) {
   record.keys_due = bots.count("keys_due");
   record.keys_sent = bots.count("keys_sent");
   record.late_sends_fraction = bots.number("late_sends_fraction");
+  record.keys_trouble = bots.text("schedule_trouble");
+  if (!record.keys_trouble.empty()) record.key_to_effect_ms = {};
   record.health.bots_cpu_share = bots.number_if_there("cpu_share");
   record.health.histogram_ns_per_record = bots.number_if_there("histogram_ns_per_record");
   record.truth.fairness_jain = jain_index(bots.numbers_if_there("bytes_received_by_bot"));
 }
+
+/// Whether the server has the planned keys itself and applies each at its instant, so that the game and its traffic are the same however late bots send theirs.
+bool is_plan_applied(const RunRecord& record) { return record.keys == "replay" && record.cell.mode != peer_mode; }
 
 void check(const RunRecord& record, ReportReader& server, ReportReader& bots, std::vector<std::string>& complaints) {
   server.verdict();
@@ -191,6 +196,7 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots, st
   expect_none("clients lost by the server", server.count("lost_federates"), complaints);
   expect_none("connections dropped by the server", server.count("dropped_connections"), complaints);
   expect_none("clients lost by the bots", bots.count("federates_lost"), complaints);
+  if (!record.keys_trouble.empty() && !is_plan_applied(record)) complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
   // Through shared memory no byte goes by the kernel, which has nothing to say then.
   if (record.transport != "shm") {
     compare_counts("sent by the server", server.number("total_bytes_sent"), server.number("kernel_bytes_sent"), record.cell.clients, complaints);

@@ -70,6 +70,7 @@ struct RunRecord {
   std::optional<double> segments_per_s, writes_per_s;
   std::optional<std::uint64_t> keys_due, keys_sent;
   std::optional<double> late_sends_fraction;
+  std::string keys_trouble;  ///< why there is no `key_to_effect_ms`: the keys were sent too late; empty if not
   std::optional<double> server_cpu_s, bots_cpu_s;  ///< processor time of each process from start to end
   Percentiles tick_us;     ///< wall time of whole ticks
   TruthFigures truth;
@@ -87,7 +88,8 @@ struct RunRecord {
 RunRecord record_for(const Experiment& experiment, const Cell& cell);
 
 /// Fills `record` from the reports of the server and the bots and judges it. It is valid if both reports are complete and say so themselves, both counted
-/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. In virtual time there is neither a
+/// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. Keys sent too late
+/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the planned keys at their instants whenever they come, all else elsewhere. In virtual time there is neither a
 /// kernel nor a clock to measure costs by: such figures may be null in the reports and stay absent.
 void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report);
 

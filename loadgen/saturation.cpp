@@ -123,6 +123,7 @@ Judgement judgement_of(const RunRecord& record, const ServiceLevel& level) {
     const auto on_time = record.ticks_on_time_fraction;
     return {Verdict::invalid, record.why_invalid + (on_time ? " (while the server had " + four_digits(100.0 * *on_time) + " % of its ticks on time)" : "")};
   }
+  if (!record.keys_trouble.empty()) return {Verdict::invalid, "the bots, who measure the age of updates, fell behind: " + record.keys_trouble};
   if (!record.ticks_on_time_fraction) return {Verdict::invalid, "the run has no ticks_on_time_fraction"};
   std::string why;
   if (*record.ticks_on_time_fraction < level.on_time_fraction_min) {

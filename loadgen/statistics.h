@@ -29,8 +29,8 @@ enum class Scale : std::uint8_t {
 /// The interval of the mean of `values` by Student's t with n - 1 degrees of freedom (Jain, The Art of Computer Systems Performance Analysis, 1991, 13.2; Le
 /// Boudec, Performance Evaluation of Computer and Communication Systems, 2010, theorem 2.2.2); nothing for fewer than two values. With m the mean, h half the
 /// width: m -+ h if unbounded; m exp(-+ h / m) if positive; logit m -+ h / (m (1 - m)), turned back, of a fraction. The standard error is carried to the scale
-/// by its slope at m (the delta method: Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 8), so single values of 0 or 1, which have no logarithm or
-/// logit, need no shifting, and the interval is about the arithmetic mean; averaged logarithms would give that of the geometric one. If all values are 0, or all
+/// by its slope at m (the delta method: Meeker and Escobar, Statistical Methods for Reliability Data, 1998, chapter 8), so single values of 0 or 1, which have
+/// no logarithm or logit, need no shifting, and the interval is about the arithmetic mean; averaged logarithms would give that of the geometric one. If all values are 0, or all
 /// 1, the interval is that point. Values beyond what `scale` says widen it: a fraction with one above 1 is taken as positive, one below 0 as unbounded.
 std::optional<Interval> interval_of_mean(std::span<const double> values, Scale scale);
 

@@ -32,7 +32,7 @@ std::vector<CellLatencies> latencies_in(const std::filesystem::path& cells, std:
     if (!report.is_object()) continue;
     CellLatencies& entry = entry_for(result, run.cell);
     merge_from(entry.update_age, report, "update_age_ms");
-    merge_from(entry.key_to_effect, report, "key_to_effect_ms");
+    if (run.keys_trouble.empty()) merge_from(entry.key_to_effect, report, "key_to_effect_ms");
     merge_from(entry.late_entry, report, "late_entry_ms");
   }
   return result;

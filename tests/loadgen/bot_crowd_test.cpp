@@ -147,6 +147,21 @@ TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
   EXPECT_EQ(measured().keys_sent, 2u);
 }
 
+/// Late in fifty: one by chance in 39 of 100 runs whose keys are late with a probability of 1 %, four in 1.6 of 1,000.
+TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
+  const auto trouble = [](std::uint64_t late, std::uint64_t sent) {
+    Measurements measured;
+    measured.late_sends = late, measured.keys_sent = sent;
+    return measured.schedule_trouble();
+  };
+  EXPECT_EQ(trouble(0, 0), "");
+  EXPECT_EQ(trouble(1, 50), "");
+  EXPECT_EQ(trouble(3, 50), "");
+  EXPECT_EQ(trouble(4, 50), "4 of 50 keys went out more than 10 ms late");
+  EXPECT_EQ(trouble(1'050, 100'000), "") << "1.6 standard deviations";
+  EXPECT_NE(trouble(1'100, 100'000), "") << "3.2";
+}
+
 /// Warm-up is from 0 to 0.5 s, the end at 1 s: ticks 25 to 49 and what happens between 0.5 s, itself included, and 1 s.
 TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   start({key(0.1), key(0.5), key(0.7)}, 0.5, 1.0);

@@ -24,7 +24,7 @@ inline nlohmann::json canned_bots_report(const Cell& cell) {
   lateness.record(0.0002, 70);
   return {{"clients", cell.clients}, {"measured_s", 2.0}, {"bytes_received", 400'000}, {"bytes_sent", 4'000}, {"segments_sent", 100},
           {"updates_received", 30'000}, {"update_age_ms", ages.to_json()}, {"key_to_effect_ms", effects.to_json()}, {"keys_due", 70}, {"keys_sent", 70},
-          {"late_sends_fraction", 0.0}, {"send_lateness_ms", lateness.to_json()}, {"federates_lost", 0}, {"kernel_bytes_received", 500'000},
+          {"late_sends_fraction", 0.0}, {"send_lateness_ms", lateness.to_json()}, {"schedule_trouble", ""}, {"federates_lost", 0}, {"kernel_bytes_received", 500'000},
           {"kernel_bytes_sent", 5'000}, {"total_bytes_received", 500'000}, {"total_bytes_sent", 5'000}, {"valid", true}, {"why_invalid", ""}};
 }
 

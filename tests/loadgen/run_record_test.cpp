@@ -78,6 +78,30 @@ TEST(RunRecord, EachOfTheFourCountsIsComparedWithTheKernels) {
         }
 }
 
+TEST(RunRecord, KeysThatWentOutLateCostALatencyOfKeysAndTheRunOnlyWhereTheyAreTheGame) {
+  nlohmann::json bots = canned_bots_report(cell);
+  bots["schedule_trouble"] = "9 of 70 keys went out more than 10 ms late";
+  bots["late_sends_fraction"] = 9.0 / 70.0;
+  EXPECT_TRUE(judged(canned_server_report(cell), canned_bots_report(cell)).key_to_effect_ms.p50);
+  const RunRecord replayed = judged(canned_server_report(cell), bots);
+  EXPECT_TRUE(replayed.valid) << replayed.why_invalid;
+  EXPECT_EQ(replayed.keys_trouble, "9 of 70 keys went out more than 10 ms late");
+  EXPECT_FALSE(replayed.key_to_effect_ms.p50 || replayed.key_to_effect_ms.max);
+  EXPECT_TRUE(replayed.update_age_ms.p99 && replayed.down_bytes_per_client_per_s);
+  EXPECT_EQ(to_json(replayed)["keys_trouble"], replayed.keys_trouble);
+
+  Experiment live = small_experiment();
+  live.keys = KeySource::live;
+  RunRecord record = record_for(live, cell);
+  judge(record, canned_server_report(cell), bots);
+  EXPECT_EQ(record.why_invalid, "the bots could not keep their schedule: 9 of 70 keys went out more than 10 ms late");
+  Cell peers = cell;
+  peers.mode = peer_mode;
+  record = record_for(small_experiment(), peers);
+  judge(record, canned_server_report(peers), bots);
+  EXPECT_THAT(record.why_invalid, HasSubstr("could not keep their schedule")) << "peers wait for each other's keys";
+}
+
 TEST(RunRecord, ALineHasTheDocumentedKeysInOrder) {
   const auto line = to_json(judged(canned_server_report(cell), canned_bots_report(cell)));
   const std::vector<std::string> documented{

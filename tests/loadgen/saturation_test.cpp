@@ -169,6 +169,10 @@ TEST(ServiceLevel, AnAbsentPercentileIsBoundedByTheMaximum) {
   lost.why_invalid = "3 clients lost by the server";
   EXPECT_EQ(judgement_of(lost, level).verdict, Verdict::invalid);
   EXPECT_THAT(judgement_of(lost, level).why, HasSubstr("3 clients lost"));
+  RunRecord behind = record_with(1.0, 300.0, 400.0);
+  behind.keys_trouble = "9 of 70 keys went out more than 10 ms late";
+  EXPECT_EQ(judgement_of(behind, level).verdict, Verdict::invalid) << "the age may be that of the bots' own queue";
+  EXPECT_THAT(judgement_of(behind, level).why, HasSubstr("9 of 70"));
 }
 
 /// A machine on which each scheme holds up to a limit of its own; beyond, its ticks are late.

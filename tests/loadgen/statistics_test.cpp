@@ -25,6 +25,20 @@ TEST(Statistics, StudentsQuantilesAreThoseOfTheTables) {
   for (const auto& [freedom, t] : table) EXPECT_NEAR(student_t_quantile(0.975, freedom), t, 1e-6) << freedom;
 }
 
+TEST(Statistics, BinomialTailsAreSumsOfTheirTerms) {
+  for (const std::uint64_t trials : {1u, 50u, 120u}) {
+    double tail = 0.0, term = std::pow(0.01, static_cast<double>(trials));  // that all succeed; then one fewer each
+    for (std::uint64_t count = trials; count > 0; --count) {
+      tail += term;
+      EXPECT_NEAR(binomial_tail(count, trials, 0.01), tail, 1e-12 + 1e-9 * tail) << count << " of " << trials;
+      term *= 99.0 * static_cast<double>(count) / static_cast<double>(trials - count + 1);
+    }
+  }
+  EXPECT_EQ(binomial_tail(0, 50, 0.01), 1.0);
+  EXPECT_EQ(binomial_tail(51, 50, 0.01), 0.0);
+  EXPECT_NEAR(binomial_tail(10'500, 1'000'000, 0.01), 3e-7, 2e-7) << "five standard deviations";
+}
+
 TEST(Statistics, AnIntervalIsMeanPlusMinusTTimesStandardError) {
   const std::vector<double> values{30.0, 36.0, 33.0};  // mean 33, deviation 3, error sqrt(3), t 4.302653
   const auto interval = interval_of_mean(values, Scale::unbounded);
@@ -65,7 +79,7 @@ TEST(Statistics, NoIntervalPassesWhatItsFigureCanBe) {
   EXPECT_EQ(interval_of_mean(std::vector<double>(3, 0.1), Scale::fraction), (Interval{0.1, 0.1}));
 }
 
-/// How many of 4,000 samples of `size`, drawn by `draw`, have an interval that contains `mean`; every interval must lie within [0, most] and contain its sample's mean.
+/// The part of 4,000 samples of `size`, drawn by `draw`, whose interval contains `mean`; each must lie within [0, most] and contain its sample's mean.
 template <class Draw>
 double coverage(Scale scale, std::size_t size, double mean, double most, Draw draw) {
   constexpr int trials = 4'000;
