@@ -61,7 +61,8 @@ class LineReader {
   }
   void field(const char* key, ErrorFigures& into) {
     if (LineReader part(object(key)); part.line_.is_object()) {
-      part.field("rms", into.rms), part.field("p99", into.p99), part.field("max", into.max);
+      part.field("rms", into.rms), part.field("p50", into.p50), part.field("p90", into.p90), part.field("p99", into.p99), part.field("max", into.max);
+      part.field("replaced_samples", into.replaced_samples), part.field("replaced_rms", into.replaced_rms);
       adopt(key, part);
     }
   }

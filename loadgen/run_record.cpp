@@ -222,7 +222,10 @@ class LineWriter {
     line[key] = or_null(value);
   }
   void field(const char* key, const Percentiles& percentiles) { line[key] = percentiles_json(percentiles); }
-  void field(const char* key, const ErrorFigures& error) { line[key] = {{"rms", or_null(error.rms)}, {"p99", or_null(error.p99)}, {"max", or_null(error.max)}}; }
+  void field(const char* key, const ErrorFigures& error) {
+    line[key] = {{"rms", or_null(error.rms)},   {"p50", or_null(error.p50)}, {"p90", or_null(error.p90)}, {"p99", or_null(error.p99)},
+                 {"max", or_null(error.max)}, {"replaced_samples", or_null(error.replaced_samples)}, {"replaced_rms", or_null(error.replaced_rms)}};
+  }
   void text_or_null(const char* key, const std::string& text) { line[key] = text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text); }
 
   nlohmann::ordered_json line;

@@ -14,9 +14,12 @@ namespace rink::loadgen {
 /// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323); acknowledgements are not counted.
 inline constexpr double segment_header_bytes = 66.0;
 
-/// Root mean square, 99th percentile and maximum of distances [mm].
+/// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put back since it was last heard of.
 struct ErrorFigures {
   std::optional<double> rms, p99, max;
+  std::optional<double> p50{}, p90{};
+  std::optional<std::uint64_t> replaced_samples{};  ///< left out of all the above
+  std::optional<double> replaced_rms{};             ///< of those
 };
 
 /// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there was no evidence.

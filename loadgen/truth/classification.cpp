@@ -43,13 +43,22 @@ std::optional<double> Classification::recall() const { return part(both, relevan
 
 ErrorFigures PositionErrors::figures() {
   constexpr double mm_per_m = 1e3;
-  if (squares_.empty()) return {};
+  ErrorFigures figures;
+  if (squares_.empty() && replaced_ == 0) return figures;
+  figures.replaced_samples = replaced_;
+  if (replaced_ > 0) figures.replaced_rms = mm_per_m * std::sqrt(replaced_squares_ / static_cast<double>(replaced_));
+  if (squares_.empty()) return figures;
   std::sort(squares_.begin(), squares_.end());
   double sum = 0.0;
   for (const double square : squares_) sum += square;
   const auto count = squares_.size();
-  ErrorFigures figures{.rms = mm_per_m * std::sqrt(sum / static_cast<double>(count)), .p99 = std::nullopt, .max = mm_per_m * std::sqrt(squares_.back())};
-  if (Histogram::supports(count, 0.99)) figures.p99 = mm_per_m * std::sqrt(squares_[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(count))) - 1]);
+  const auto at = [&](double fraction) -> std::optional<double> {
+    if (!Histogram::supports(count, fraction)) return std::nullopt;
+    return mm_per_m * std::sqrt(squares_[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(count))) - 1]);
+  };
+  figures.rms = mm_per_m * std::sqrt(sum / static_cast<double>(count));
+  figures.p50 = at(0.5), figures.p90 = at(0.9), figures.p99 = at(0.99);
+  figures.max = mm_per_m * std::sqrt(squares_.back());
   return figures;
 }
 

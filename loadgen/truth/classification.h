@@ -26,12 +26,16 @@ struct Classification {
 class PositionErrors {
  public:
   void add(double distance_m) { squares_.push_back(distance_m * distance_m); }
-  /// The 99th percentile only if ten lie beyond it (see Histogram).
+  /// Of an entity that was put back elsewhere, of which there was no news yet: a few such would outweigh all else in a root mean square.
+  void add_replaced(double distance_m) { replaced_squares_ += distance_m * distance_m, ++replaced_; }
+  /// Percentiles only if ten lie beyond them (see Histogram).
   ErrorFigures figures();
   std::size_t count() const { return squares_.size(); }
 
  private:
   std::vector<double> squares_;
+  double replaced_squares_ = 0.0;
+  std::uint64_t replaced_ = 0;
 };
 
 /// Percentiles of durations [s], in milli- or microseconds: exact order statistics, as far as the sample supports them.

@@ -55,7 +55,7 @@ void Replay::find(std::uint32_t own, std::vector<Relevant>& found) const {
 /// A puck that is put back at a face-off comes by no path: until the next tick, the first that can tell of it, it counts as lying where it left play.
 Vector2 Replay::announced_centre(game::EntityId entity) {
   const Vector2 centre = game_.position(entity);
-  if (away_.size() <= entity.index) away_.resize(entity.index + 1);
+  if (away_.size() <= entity.index) away_.resize(entity.index + 1), replaced_s_.resize(entity.index + 1);
   std::optional<Away>& away = away_[entity.index];
   if (!game_.world().is_in_play(entity)) {
     away = Away{centre, std::nullopt};
@@ -63,6 +63,7 @@ Vector2 Replay::announced_centre(game::EntityId entity) {
     constexpr double rounding = 1e-6;  // of a tick
     if (!away->until_s) away->until_s = std::ceil(game_.world().motion(entity).time * rate_hz_ - rounding) / rate_hz_;  // its first event was being put back
     if (game_.now() < *away->until_s - rounding / rate_hz_) return away->centre;
+    replaced_s_[entity.index] = away->until_s;
     away.reset();
   }
   return centre;

@@ -31,6 +31,8 @@ class Replay {
   void remember() { before_ = centres_; }
   /// At the look remembered, if it was there.
   std::optional<Vector2> centre_before(std::uint32_t entity) const { return entity < before_.size() ? before_[entity] : std::nullopt; }
+  /// The first tick that could tell of `entity` having been put back at its latest face-off, if there was one by the last look; from then on it counts there.
+  std::optional<double> replaced_s(std::uint32_t entity) const { return entity < replaced_s_.size() ? replaced_s_[entity] : std::nullopt; }
   Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
   /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely deep.
   void find(std::uint32_t own, std::vector<Relevant>& found) const;
@@ -54,6 +56,7 @@ class Replay {
   Surroundings surroundings_;
   double rate_hz_;
   std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play
+  std::vector<std::optional<double>> replaced_s_;  ///< by entity
   std::unordered_map<std::uint32_t, std::uint32_t> entities_;  ///< by object
   std::vector<Placed> placed_;
   std::vector<std::optional<Vector2>> centres_, before_;  ///< by entity

@@ -124,6 +124,22 @@ class ReplayJudgement {
     return found != relevant_.end() && found->entity == entity;
   }
 
+  /// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the mirror's newest stamp is from before, or nothing came about
+  /// the entity within a window that reaches back before it.
+  bool is_replaced_unheard(const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity) const {
+    constexpr double rounding_s = 1e-6;
+    const std::optional<double> replaced_s = replay_.replaced_s(entity);
+    if (!replaced_s) return false;
+    return sample.matched_s < *replaced_s - rounding_s || (belief.bytes == 0 && *replaced_s > sample.displayed_s - sample.window_s);
+  }
+
+  void add_error(PositionErrors& errors, const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity,
+                 const Vector2& believed) {
+    const double distance = (believed - replay_.centre(entity)).norm();
+    if (is_replaced_unheard(sample, belief, entity)) errors.add_replaced(distance);
+    else errors.add(distance);
+  }
+
   void judge_displayed(const BotsEvidence::Sample& sample) {
     Player& player = players_[sample.bot];
     if (!is_present(player)) return;
@@ -137,7 +153,7 @@ class ReplayJudgement {
       if (!entity || *entity == *player.bat) continue;
       bytes_ += belief.bytes;
       if (!is_relevant(*entity)) wasted_bytes_ += belief.bytes;
-      else if (belief.is_in_scope) displayed_error_.add((belief.displayed - replay_.centre(*entity)).norm());
+      else if (belief.is_in_scope) add_error(displayed_error_, sample, belief, *entity, belief.displayed);
     }
   }
 
@@ -149,7 +165,7 @@ class ReplayJudgement {
       const BotsEvidence::Belief& belief = bots_.beliefs[i];
       const auto entity = replay_.entity_of_object(belief.object);
       if (!belief.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity)) continue;
-      matched_error_.add((belief.matched - replay_.centre(*entity)).norm());
+      add_error(matched_error_, sample, belief, *entity, belief.matched);
     }
   }
 

@@ -16,7 +16,6 @@
 #include "game/net/evidence_lines.h"
 #include "game/net/peer/peer_evidence.h"
 #include "loadgen/truth/classification.h"
-#include "loadgen/truth/replay.h"
 #include "loadgen/truth/scope_history.h"
 #include "loadgen/truth/stays.h"
 #include "tests/temporary_folder.h"
@@ -199,66 +198,6 @@ TEST_F(TinyRink, ChurnIsThatOfTheSpanPerWatchedPlayerAndSecond) {
   EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5) << "at 1.5 and 2.5 s; what happens at the end is after it";
   bots_.bots.push_back({100 + far, {}});  // another player, at rest where nothing comes by
   EXPECT_DOUBLE_EQ(*judged().churn_per_client_per_s, 2.0 / 2.5 / 2.0);
-}
-
-/// A puck slides into the left goal, lies there for the delay, and is put back between two ticks, far from where it was.
-TEST_F(TinyRink, APuckThatScoredCountsWhereItLeftPlayUntilTheFirstTickAfterItsFaceOff) {
-  std::ofstream(scene_file_) << R"(
-[field]
-length = 4.0
-width = 2.0
-goal_width = 1.0
-material = "ice"
-[materials]
-names = ["ice"]
-restitution = 1.0
-[drag]
-pucks = 0.0
-bats = 0.0
-[match]
-goals_to_win = 5
-face_off_delay = 1.03
-face_off_distance = 0.25
-[[bat]]
-position = [3.5, 1.0]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[bat]]
-position = [3.5, 0.3]
-half_extent = [0.1, 0.1]
-material = "ice"
-[[puck]]
-position = [1.0, 1.0]
-velocity = [-1.0, 0.0]
-radius = 0.1
-material = "ice"
-)";
-  constexpr std::uint32_t puck = 2;
-  game::Game game(game::chosen_scene(server_.choice));
-  std::optional<double> scored_s, back_s;
-  Vector2 left_play;
-  for (int ms = 0; ms <= 4000 && !back_s; ++ms) {
-    game.advance(1e-3 * ms);
-    const bool is_away = !game.world().is_in_play({puck});
-    if (is_away && !scored_s) scored_s = 1e-3 * ms, left_play = game.position({puck});
-    if (!is_away && scored_s) back_s = 1e-3 * ms;
-  }
-  ASSERT_TRUE(scored_s && back_s);
-  ASSERT_NEAR(*back_s - *scored_s, 1.03, 2e-3);
-  const Vector2 face_off = game.position({puck});
-  ASSERT_GT((face_off - left_play).norm(), 0.9);
-  const double tick_s = 1.0 / server_.rate_hz, first_tick_s = std::ceil(*back_s / tick_s) * tick_s;
-  ASSERT_GT(first_tick_s - *back_s, 0.01) << "it comes back between two ticks";
-  Replay replay(server_, {RelevanceArea::Shape::square, view_half_side});
-  const auto centre_at = [&](double instant_s) {
-    replay.advance(instant_s);
-    replay.look_around();
-    return replay.centre(puck);
-  };
-  EXPECT_NEAR((centre_at(*scored_s + 0.01) - left_play).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((centre_at(*back_s + 1e-3) - left_play).norm(), 0.0, 1e-9) << "put back, and not announced";
-  EXPECT_NEAR((centre_at(first_tick_s - 1e-3) - left_play).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((centre_at(first_tick_s) - face_off).norm(), 0.0, 0.1) << "the first tick that can tell of it";
 }
 
 TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {

@@ -93,11 +93,17 @@ TEST(PositionErrors, RootMeanSquarePercentileAndMaximumAreThoseOfTheSample) {
   for (int mm = 1; mm <= 1000; ++mm) errors.add(1e-3 * mm);
   const ErrorFigures figures = errors.figures();
   EXPECT_NEAR(*figures.rms, std::sqrt(1001.0 * 2001.0 / 6.0), 1e-9);  // sum of squares n (n + 1)(2n + 1)/6
+  EXPECT_NEAR(*figures.p50, 500.0, 1e-9);
+  EXPECT_NEAR(*figures.p90, 900.0, 1e-9);
   EXPECT_NEAR(*figures.p99, 990.0, 1e-9);
   EXPECT_NEAR(*figures.max, 1000.0, 1e-9);
   PositionErrors few;
   few.add(0.002);
-  EXPECT_FALSE(few.figures().p99);
+  EXPECT_FALSE(few.figures().p50 || few.figures().p99);
+  few.add_replaced(3.0), few.add_replaced(4.0);
+  EXPECT_NEAR(*few.figures().max, 2.0, 1e-9);
+  EXPECT_EQ(few.figures().replaced_samples, 2u);
+  EXPECT_NEAR(*few.figures().replaced_rms, 1e3 * std::sqrt(12.5), 1e-9);
 }
 
 TEST(Percentiles, OfDurationsAreThoseWhoseRankTheyAre) {
