@@ -55,7 +55,8 @@ Columns columns_of(const std::vector<SummaryRow>& rows) {
     columns.policy_width = std::max(columns.policy_width, policy_name(row).size());
   }
   for (const ParameterKind& kind : parameter_kinds())
-    if (!kind.is_switch && std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); })) columns.parameters.push_back(&kind);
+    if (!kind.is_switch && std::ranges::any_of(rows, [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); }))
+      columns.parameters.push_back(&kind);
   return columns;
 }
 
@@ -120,7 +121,8 @@ std::string block_title(const SummaryRow& row, const RunRecord& run, const Colum
   const std::string view = run.view_area > 0.0 ? formatted(", each client sees %g m2", run.view_area)
                            : differs("view_fraction") ? "" : formatted(", each client sees %g %% of the field", row.parameters.view_fraction * 100.0);
   return (row.part.empty() ? "" : row.part + ": ") + formatted("%.30s", row.mode.c_str()) + (differs("tick_rate_hz") ? "" : formatted(" at %g Hz", row.parameters.tick_rate_hz)) + view +
-         (run.transport == "tcp" && !row.part.empty() ? ", processes over TCP without delay" : run.transport == "udp" ? ", datagrams" : run.transport == "shm" ? ", shared memory" : "") + (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
+         (run.transport == "tcp" && !row.part.empty() ? ", processes over TCP without delay"
+                                                     : run.transport == "udp" ? ", datagrams" : run.transport == "shm" ? ", shared memory" : "") + (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
 }
 
 /// What filter and policy save apart and together, a line for each row that has both.

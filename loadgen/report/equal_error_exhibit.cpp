@@ -4,6 +4,7 @@
 #include <set>
 
 #include "loadgen/equal_error.h"
+#include "loadgen/parameter.h"
 #include "loadgen/report/exhibit.h"
 #include "loadgen/report/line_plot.h"
 #include "loadgen/report/run_figures.h"
@@ -20,7 +21,7 @@ std::string ratio_text(const std::optional<Ratio>& ratio, AtEqualError::End end)
 }
 
 std::string conditions_text(const EqualError& each) {
-  return each.scheme + ", " + std::to_string(each.clients) + " clients, " + plain_number(each.delay_ms) + " ms of delay";
+  return each.scheme + ", " + std::to_string(each.clients) + " clients, " + shortest(each.delay_ms) + " ms of delay";
 }
 
 void add_table(Exhibit& exhibit, const std::vector<EqualError>& comparisons) {
@@ -29,7 +30,7 @@ void add_table(Exhibit& exhibit, const std::vector<EqualError>& comparisons) {
                   "<th>times on the wire<br/>(95 % interval)</th></tr></thead>\n<tbody>\n";
   for (const EqualError& each : comparisons) {
     exhibit.html += "<tr class=\"first\"><td class=\"text\">" + escaped(conditions_text(each)) + "</td><td class=\"text\">" + plain_number(each.recall, 4) + (each.is_own_recall ? ", without a margin" : ", by its margin") +
-                    "</td><td class=\"text\">" + escaped(each.subject) + " at " + plain_number(each.rate_hz) + " Hz</td><td>" + plain_number(1e-3 * each.payload) + "</td><td>" + plain_number(1e-3 * each.wire) + "</td><td>" +
+                    "</td><td class=\"text\">" + escaped(each.subject) + " at " + shortest(each.rate_hz) + " Hz</td><td>" + plain_number(1e-3 * each.payload) + "</td><td>" + plain_number(1e-3 * each.wire) + "</td><td>" +
                     plain_number(each.error_mm) + "</td><td>1</td><td>1</td></tr>\n";
     for (const RivalRatio& rival : each.rivals)
       exhibit.html += "<tr><td></td><td></td><td class=\"text\">" + escaped(rival.policy) + "</td><td></td><td></td><td></td><td>" +
@@ -49,8 +50,8 @@ std::vector<PlotPoint> frontier_of(const std::vector<const RunRecord*>& runs, co
       if (const auto error = displayed_rms(*run), own = bytes(*run); error && own) errors.push_back(*error), sent.push_back(*own);
     if (errors.empty()) continue;
     const MeanInterval x = mean_interval(errors), y = mean_interval(sent);
-    std::string label = plain_number(setting.first) + " Hz";
-    if (policy.starts_with("dead-reckoning")) label += ", " + plain_number(1e3 * setting.second) + " mm";
+    std::string label = shortest(setting.first) + " Hz";
+    if (policy.starts_with("dead-reckoning")) label += ", " + shortest(1e3 * setting.second) + " mm";
     points.push_back({x.mean, y.mean, y.interval, x.interval, policy + ", " + label + ": " + plain_number(x.mean) + " mm, " + short_number(y.mean) + "B/s", {}});
   }
   std::ranges::sort(points, {}, &PlotPoint::x);
@@ -67,8 +68,8 @@ struct Curves {
 };
 
 void add_plot(Exhibit& exhibit, const Curves& of, const std::vector<const RunRecord*>& runs, const char* what, const char* name, FigureOf bytes) {
-  LinePlot plot{std::string(what) + " against displayed error, " + plain_number(of.delay_ms) + " ms of delay", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
-  PlotTable table{std::string(name) + "-delay" + plain_number(of.delay_ms), "Settings of each policy, at the smallest margin, that no other of its settings beats in both error and bytes",
+  LinePlot plot{std::string(what) + " against displayed error, " + shortest(of.delay_ms) + " ms of delay", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
+  PlotTable table{std::string(name) + "-delay" + shortest(of.delay_ms), "Settings of each policy, at the smallest margin, that no other of its settings beats in both error and bytes",
                   {"policy", "setting", "displayed_error_mm_rms", "bytes_per_client_per_s"}};
   double least_margin = 1e9;
   std::vector<std::string> policies;
