@@ -2,9 +2,11 @@
 #include "loadgen/modes_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
+#include "loadgen/distributions.h"
 #include "loadgen/summary.h"
 #include "loadgen/table_number.h"
 
@@ -24,10 +26,11 @@ constexpr Column columns[] = {{"halo", "halo_bytes_per_client_per_s", 1e-3},    
                               {"mean", "mean_node_cpu_s", 1.0},                      {"effect", "key_to_effect_ms_p50", 1.0},
                               {"recall", "delivered_recall", 1.0}};
 
-/// Of the interval of a mean; it reaches a little further up than down.
-std::optional<double> half_width(const Statistic& statistic) {
-  if (!statistic.interval) return std::nullopt;
-  return 0.5 * (statistic.interval->high - statistic.interval->low);
+/// Student's t times the standard error: about half the width of the interval, which keeps above 0 and is not symmetric.
+std::optional<double> margin(const Statistic& statistic, std::size_t runs) {
+  if (!statistic.deviation) return std::nullopt;
+  const auto count = static_cast<double>(runs);
+  return student_t_quantile(0.5 + 0.5 * interval_confidence, count - 1.0) * *statistic.deviation / std::sqrt(count);
 }
 
 std::string padded(const std::string& text, std::size_t width) { return std::string(text.size() < width ? width - text.size() : 0, ' ') + text; }
@@ -41,8 +44,8 @@ bool has_several_modes(std::span<const RunRecord> runs) {
 std::string modes_table(std::span<const RunRecord> runs) {
   if (!has_several_modes(runs)) return {};
   std::string text = "nodes with a server and without: kB/s for each client by what they are about, then all down, up and both ways with headers; the busiest node's kB/s of payload both ways,\n"
-                     "events/s and processor time, the mean node's; a key's effect, ms; and the fraction of what concerns a player that it knows. Means over replications, and below them half\n"
-                     "the width of their 95 % intervals\n";
+                     "events/s and processor time, the mean node's; a key's effect, ms; and the fraction of what concerns a player that it knows. Means over replications, and below them t\n"
+                     "at 95 % times their standard errors; the intervals are in summary.csv\n";
   std::vector<SummaryRow> rows = summarise(runs);
   std::size_t width = 7;
   for (const SummaryRow& row : rows) width = std::max(width, row.scheme.size());
@@ -57,7 +60,7 @@ std::string modes_table(std::span<const RunRecord> runs) {
     if (row.valid_runs < 2) continue;
     std::snprintf(head, sizeof head, "\n%7s %-*s %-9s %-13s", "", static_cast<int>(width), "", "", ("+- n=" + std::to_string(row.valid_runs)).c_str());
     text += head;
-    for (const Column& column : columns) text += " " + padded(table_number(half_width(row.of(column.figure)), column.scale), 7);
+    for (const Column& column : columns) text += " " + padded(table_number(margin(row.of(column.figure), row.valid_runs), column.scale), 7);
   }
   return text + "\n";
 }
