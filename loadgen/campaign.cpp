@@ -137,13 +137,15 @@ Outcome run_campaign(const Experiment& experiment, const RunnerSettings& setting
   try {
     const auto key_logs = write_key_logs(experiment, results, write_key_log);
     CellQueue queue(experiment, settings, results, progress, outcome);
-    for (const Cell& cell : cells_of(experiment))
+    for (const Cell& cell : running_order(experiment))
       if (!has_run_of(cell, before) && !queue.run(cell, key_logs.at(played_game(experiment, cell)))) break;
     queue.finish();
   } catch (const OutputError& error) {
     outcome.output_failure = error.what();
   }
   progress.clear();
+  const std::vector<Cell> cells = cells_of(experiment);
+  std::ranges::stable_sort(outcome.runs, {}, [&cells](const RunRecord& run) { return std::ranges::find(cells, run.cell) - cells.begin(); });
   return outcome;
 }
 

@@ -23,6 +23,7 @@
 #include "loadgen/report/write_report.h"
 #include "loadgen/resume.h"
 #include "loadgen/saturate_command.h"
+#include "loadgen/sequential.h"
 #include "loadgen/server_cores.h"
 #include "loadgen/table.h"
 #include "rti/schemes.h"
@@ -31,7 +32,7 @@ namespace {
 
 using namespace rink::loadgen;
 
-enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7, hung_up = 129, interrupted = 130 };
+enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7, no_baseline = 8, width_not_reached = 9, hung_up = 129, interrupted = 130 };
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
@@ -39,7 +40,8 @@ The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds
 
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
-             printed (the folder is complete); 129 the terminal went away; 130 interrupted (what was measured is kept).
+             printed (the folder is complete); 8 a baseline that no cell has; 9 intervals are wider than --until-width
+             asks for after --seeds replications; 129 the terminal went away; 130 interrupted (what was measured is kept).
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
@@ -79,6 +81,8 @@ struct Options {
   std::string out, programs;
   bool may_replace = false, is_resumed = false, is_dry_run = false;
   std::vector<std::string> assertions;
+  std::uint32_t seeds = 0;
+  double until_width = 0.0;  ///< a fraction; 0: run the seeds and be done
   SaturateOptions saturate;
 };
 
@@ -134,7 +138,7 @@ RunnerSettings runner_settings(const Options& options, bool needs_peers) {
 std::string write_results(const ResultsDirectory& results, const Experiment& experiment, const std::vector<RunRecord>& runs, const Provenance& provenance,
                           std::span<const ReportSection> more_sections) {
   try {
-    const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
+    const Baseline baseline = experiment.baseline();
     const auto rows = summarise(runs, baseline);
     const std::string comment = comment_lines(provenance);
     results.write("summary.csv", comment + to_csv(rows));
@@ -152,6 +156,35 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
   return {};
 }
 
+/// The experiment's own seeds, or the first so many of them and, where there are fewer, the numbers that follow the largest.
+std::vector<std::uint64_t> seeds_of(std::vector<std::uint64_t> own, std::uint32_t count) {
+  std::uint64_t next = *std::ranges::max_element(own) + 1;
+  while (own.size() < count) own.push_back(next++);
+  if (count > 0) own.resize(count);
+  return own;
+}
+
+void set_seeds(Experiment& experiment, std::uint32_t count) {
+  experiment.seeds = seeds_of(experiment.seeds, count);
+  for (Experiment& part : experiment.parts) part.seeds = seeds_of(part.seeds, count);
+}
+
+/// Replications are added one by one until every row's payload is known to within `options.until_width` of itself, or there are `options.seeds`.
+Outcome run_until_narrow(Experiment& experiment, const Options& options, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_keys, std::vector<RunRecord> kept,
+                         std::vector<WideRow>& wide) {
+  Outcome outcome;
+  for (std::uint32_t count = std::min(options.seeds, least_replications); count <= options.seeds; ++count) {
+    set_seeds(experiment, count);
+    Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size() - kept.size(), expected_cell_s(experiment));
+    outcome = run_campaign(experiment, settings, results, write_keys, progress, std::move(kept));
+    if (outcome.was_interrupted || !outcome.output_failure.empty()) break;
+    wide = wider_rows(summarise(outcome.runs, experiment.baseline()), options.until_width, count - std::min(options.seeds, least_replications) + 1);
+    if (wide.empty()) break;
+    kept = outcome.runs;
+  }
+  return outcome;
+}
+
 ExitStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
   if (outcome.was_interrupted) return is_hung_up ? hung_up : interrupted;
   if (!outcome.output_failure.empty()) return output_failed;
@@ -166,7 +199,7 @@ ExitStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
 bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment, const Outcome& outcome) {
   if (outcome.was_interrupted && !assertions.empty()) std::cerr << "rink-compare: interrupted, so no --assert was judged\n";
   if (outcome.was_interrupted || assertions.empty()) return true;
-  const auto rows = summarise(outcome.runs, {experiment.baseline_scheme, experiment.baseline_policy});
+  const auto rows = summarise(outcome.runs, experiment.baseline());
   bool do_all_hold = true;
   for (const Assertion& assertion : assertions) {
     const Assertion::Finding finding = assertion.judge(rows);
@@ -184,7 +217,8 @@ Continuation opened_results(const Options& options, const Experiment& experiment
 
 ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
   const std::string standard = options.saturate.is_wanted ? "saturate" : "default";
-  const Experiment experiment = load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
+  Experiment experiment = load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
+  if (options.seeds > 0) set_seeds(experiment, options.until_width > 0.0 ? std::min(options.seeds, least_replications) : options.seeds);
   std::vector<Assertion> assertions;
   for (const std::string& text : options.assertions) assertions.emplace_back(text, experiment);
   if (options.is_dry_run) {
@@ -208,14 +242,16 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size() - continuation.kept.size(), expected_cell_s(experiment));
   const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) { write_game_plan(part_of(experiment, cell.part), cell, file); };
   std::vector<Saturation> found;
-  Outcome outcome = options.saturate.is_wanted ? run_saturation(experiment, options.saturate, allowed_clients(), settings, results, write_keys, std::cerr, found)
-                                               : run_campaign(experiment, settings, results, write_keys, progress, continuation.kept);
+  std::vector<WideRow> wide;
+  Outcome outcome = options.saturate.is_wanted    ? run_saturation(experiment, options.saturate, allowed_clients(), settings, results, write_keys, std::cerr, found)
+                    : options.until_width > 0.0 ? run_until_narrow(experiment, options, settings, results, write_keys, continuation.kept, wide)
+                                                : run_campaign(experiment, settings, results, write_keys, progress, continuation.kept);
   if (!outcome.runs.empty()) {
     std::vector<ReportSection> more_sections;
     if (options.saturate.is_wanted) more_sections.push_back(saturation_section(found, options.saturate.level));
     const std::string failure = write_results(results, experiment, outcome.runs, provenance, more_sections);
     if (outcome.output_failure.empty()) outcome.output_failure = failure;
-    const Baseline baseline{experiment.baseline_scheme, experiment.baseline_policy};
+    const Baseline baseline = experiment.baseline();
     const std::vector<RunRecord> shown = without_curves(experiment, outcome.runs);
     std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(shown, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
     if (!options.saturate.is_wanted)
@@ -228,7 +264,9 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   if (!outcome.runs.empty() && outcome.output_failure.empty()) std::cout << "report: " << (results.path() / "report.html").string() << "\n" << std::flush;
   const bool do_assertions_hold = judge(assertions, experiment, outcome);
   if (!std::cout) std::cerr << "rink-compare: the table could not be printed; it is in " << (results.path() / "report.html").string() << "\n";
-  return status_of(outcome, do_assertions_hold);
+  for (const WideRow& row : wide) std::cerr << "rink-compare: --until-width: after " << row.runs << " replications " << row.words << "\n";
+  const ExitStatus status = status_of(outcome, do_assertions_hold);
+  return status == success && !wide.empty() ? width_not_reached : status;
 }
 
 void add_saturate_options(CLI::App& app, SaturateOptions& options) {
@@ -255,18 +293,25 @@ int main(int argc, char** argv) {
   app.add_option("--assert", options.assertions, "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be given again (docs/experiments.md)")
       ->take_all()
       ->allow_extra_args(false);
+  app.add_option("--seeds", options.seeds, "replications of every cell: so many of the experiment's seeds, and the numbers after them; with --until-width at most so many")->check(rink::game::number_from(1, 10'000));
+  app.add_option_function<std::string>("--until-width", [&options](const std::string& text) { options.until_width = width_in(text); },
+                                       "replications until the 95 % interval of every row's payload is at most so wide, such as 5%: from its middle to either end, of the mean (docs/experiments.md)");
   app.add_option("--programs", options.programs, "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(app, options.saturate);
-  for (const char* flag : {"--resume", "--dry-run", "--assert"}) app.get_option("--saturate")->excludes(app.get_option(flag));
+  for (const char* flag : {"--resume", "--dry-run", "--assert", "--seeds", "--until-width"}) app.get_option("--saturate")->excludes(app.get_option(flag));
   app.footer(schemes_and_stages() + footer);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? success : bad_usage;
   }
+  if (options.until_width > 0.0 && options.seeds == 0) options.seeds = replications_max;
   heed_signals();
   try {
     return compare(options, std::vector<std::string>(argv, argv + argc));
+  } catch (const rink::loadgen::BaselineError& error) {
+    std::cerr << "rink-compare: " << error.what() << "\n";
+    return no_baseline;
   } catch (const ExperimentError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
     return bad_usage;

@@ -10,6 +10,7 @@
 #include "game/net/relevant_kinds.h"
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
+#include "loadgen/cell_key.h"
 #include "loadgen/experiment_network.h"
 #include "loadgen/experiment_reader.h"
 #include "loadgen/parameter.h"
@@ -78,6 +79,27 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
   }
   read("baseline_scheme", result.baseline_scheme, schemes);
   read("baseline_policy", result.baseline_policy, policies);
+  for (auto& [key, value] : reader.texts_of("baseline")) {
+    if (key == "scheme") result.baseline_scheme = value;
+    else if (key == "policy") result.baseline_policy = value;
+    else result.baseline_others.emplace_back(key, value);
+  }
+}
+
+/// Values of any axis, of which some cell has all.
+void expect_baseline(const ExperimentReader& reader, const Experiment& experiment, const std::string& file) {
+  if (!reader.has("baseline")) return;
+  Cell any;
+  for (const auto& [name, value] : experiment.baseline_others) {
+    std::vector<std::string> names;
+    for (const CellKey& key : cell_keys()) names.push_back(key.name);
+    const CellKey* key = key_called(name);
+    if (!key || !key->set(any, value)) throw BaselineError(file + ": baseline." + name + " = " + value + ": " + (key ? "no value of that key" : "allowed are " + joined(names)));
+  }
+  const std::vector<Cell> cells = cells_of(experiment);
+  const Baseline baseline = experiment.baseline();
+  if (std::ranges::none_of(cells, [&](const Cell& cell) { return baseline_of(cell, baseline) == cell; }))
+    throw BaselineError(file + ": baseline: no cell of the experiment is " + baseline.words());
 }
 
 bool is_part_name(const std::string& name) {
@@ -169,10 +191,11 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
     result.parts.push_back(part_in(part, result, file, vocabulary));
   }
   read_baseline(reader, result);
-  for (Experiment& part : result.parts) part.baseline_scheme = result.baseline_scheme, part.baseline_policy = result.baseline_policy;
+  for (Experiment& part : result.parts) part.baseline_scheme = result.baseline_scheme, part.baseline_policy = result.baseline_policy, part.baseline_others = result.baseline_others;
   if (result.parts.empty()) read_network(reader, result);
   else if (reader.table("network")) {}  // each part has read it
   reader.refuse_the_rest();
+  expect_baseline(reader, result, file.string());
   if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());
   expect_use_of_always(result, file.string());

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rti/transport/network_conditions.h"
@@ -16,6 +17,12 @@ namespace rink::loadgen {
 class ExperimentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// A baseline that no cell has.
+class BaselineError : public ExperimentError {
+ public:
+  using ExperimentError::ExperimentError;
 };
 
 /// `fixed`: the scene as it is; clients play its first bats, and the plan moves all of its bats, so that every cell of one seed plays the very same game.
@@ -61,6 +68,13 @@ struct Vocabulary {
   std::vector<std::string> policies = known_policies();
 };
 
+/// What ratios refer to: the cell that is the same but for the scheme, the policy, and whatever else is named.
+struct Baseline {
+  std::string scheme = "none", policy = "periodic";
+  std::vector<std::pair<std::string, std::string>> others{};  ///< keys of a cell (loadgen/cell_key.h) and their values, as written
+  std::string words() const;                                  ///< for a reader, e.g. "none with periodic"
+};
+
 /// An experiment file's content; every key but `name` and `scene` has the default given here.
 struct Experiment {
   std::string name;
@@ -85,6 +99,8 @@ struct Experiment {
   std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side; `always`, what is always relevant
   std::vector<std::string> always;         ///< kinds of bodies that are always relevant; none: as the scene has it (game::relevant_kinds_of)
   std::string baseline_scheme = "none", baseline_policy = "periodic";  ///< what ratios refer to; read from a file that compares neither: the first of its lists
+  std::vector<std::pair<std::string, std::string>> baseline_others{};      ///< what else of it is named
+  Baseline baseline() const { return {baseline_scheme, baseline_policy, baseline_others}; }
   std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the bots on the others; 2: both wherever they like
   Design design = Design::matrix;
   Population population = Population::fixed;
@@ -117,8 +133,7 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// All cells in the order in which they run: schemes innermost, so that what is compared runs side by side and a slow drift of the machine hits all
-/// schemes alike; seeds outermost, so that an interrupted experiment has whole replications. Cells that differ only in what their scheme does not have run once.
+/// All cells in the order in which tables list them, seeds outermost. Cells that differ only in what their scheme does not have run once.
 std::vector<Cell> cells_of(const Experiment& experiment);
 
 /// `cell` without the parameters that its scheme does not have: the size of cells is for schemes that have some, and with `none` neither margin nor sweep changes anything.
@@ -133,8 +148,14 @@ inline Cell without_seed(Cell cell) {
 /// How its policy is called: `periodic` without extrapolation is `periodic (paper)`.
 std::string policy_name(const Cell& cell);
 
-/// The cell that the ratios of `cell` refer to: the same but for `scheme` and `policy`.
+/// The cell that the ratios of `cell` refer to: the same but for what `baseline` names.
+Cell baseline_of(Cell cell, const Baseline& baseline);
+/// The same but for `scheme` and `policy`.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
+
+/// Seeded by each replication: the order in which `cells_of(experiment)` run, so that no cell always follows the same other, and whole replications still come one after
+/// the other, part by part.
+std::vector<Cell> running_order(const Experiment& experiment);
 
 /// A cell's name for files and progress, e.g. `client-server-grid-periodic-30-seed1` or, with what is not the default, `...-30-pucks500-margin0.5-seed1`. No two
 /// cells of an experiment share a name.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "loadgen/experiment.h"
+#include "loadgen/parameter.h"
 
 namespace rink::loadgen {
 
@@ -134,6 +135,21 @@ class ExperimentReader {
     const auto value = node->value_exact<std::int64_t>();
     if (!value || *value < least || *value > most) refuse(key, *node, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     return value;
+  }
+
+  /// The keys of a table below this one with their values as texts, in the order of the keys; none if it is not there.
+  std::vector<std::pair<std::string, std::string>> texts_of(const char* key) {
+    const toml::node* node = take(key);
+    std::vector<std::pair<std::string, std::string>> texts;
+    if (!node) return texts;
+    if (!node->is_table()) refuse(key, *node, "a table of keys and values, such as { scheme = 'none', view_margin = 0 }");
+    for (const auto& [name, value] : *node->as_table()) {
+      const auto text = value.value_exact<std::string>();
+      const auto is_on = value.value_exact<bool>();
+      if (!text && !is_on && !value.is_number()) refuse(key, *node, "a text, a number, true or false for each of its keys");
+      texts.emplace_back(name.str(), text ? *text : is_on ? (*is_on ? "1" : "0") : shortest(*value.value<double>()));
+    }
+    return texts;
   }
 
   /// A table below this one, to be read key by key; nothing if it is not there.

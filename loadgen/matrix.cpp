@@ -1,9 +1,11 @@
 // The matrix that an experiment spans, and how its points are called.
 #include <algorithm>
 #include <iterator>
+#include <random>
 #include <string_view>
 #include <utility>
 
+#include "loadgen/cell_key.h"
 #include "loadgen/experiment.h"
 #include "loadgen/parameter.h"
 #include "rti/federation_execution.h"
@@ -55,6 +57,19 @@ Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy
   return without_idle_parameters(std::move(cell));
 }
 
+Cell baseline_of(Cell cell, const Baseline& baseline) {
+  cell = baseline_of(std::move(cell), baseline.scheme, baseline.policy);
+  for (const auto& [name, value] : baseline.others)
+    if (const CellKey* key = key_called(name)) key->set(cell, value);
+  return without_idle_parameters(std::move(cell));
+}
+
+std::string Baseline::words() const {
+  std::string text = scheme + " with " + policy;
+  for (const auto& [name, value] : others) text += ", " + name + " " + value;
+  return text;
+}
+
 std::string policy_name(const Cell& cell) { return is_paper(cell) ? "periodic (paper)" : cell.policy; }
 
 const Experiment& part_of(const Experiment& experiment, const std::string& part) {
@@ -87,6 +102,18 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
           const Cell candidate = without_idle_parameters(cell);
           if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end()) cells.push_back(candidate);
         }
+  }
+  return cells;
+}
+
+std::vector<Cell> running_order(const Experiment& experiment) {
+  std::vector<Cell> cells = cells_of(experiment);
+  const auto replication = [](const Cell& cell) { return std::pair(cell.part, cell.seed); };
+  for (auto first = cells.begin(); first != cells.end();) {
+    const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) { return replication(cell) != replication(*first); });
+    std::mt19937_64 random(first->seed);
+    for (auto place = last - first; place > 1; --place) std::iter_swap(first + (place - 1), first + static_cast<std::ptrdiff_t>(random() % static_cast<std::uint64_t>(place)));
+    first = last;
   }
   return cells;
 }

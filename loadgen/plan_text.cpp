@@ -31,7 +31,7 @@ double expected_cell_s(const Experiment& experiment) {
 }
 
 std::string plan_text(const Experiment& experiment, std::size_t open_files_needed, std::size_t open_files_max) {
-  const std::vector<Cell> cells = cells_of(experiment);
+  const std::vector<Cell> cells = running_order(experiment);
   const double cell_s = expected_cell_s(experiment);
   const bool is_virtual = std::ranges::all_of(cells, [&](const Cell& cell) { return part_of(experiment, cell.part).transport == TransportKind::virtual_time; });
   std::string text = "experiment " + experiment.name + ", scene " + experiment.scene + ": " + std::to_string(cells.size()) + " cells";
@@ -45,7 +45,7 @@ std::string plan_text(const Experiment& experiment, std::size_t open_files_neede
     text += "  " + std::to_string(i + 1) + start + "  " + name_of(cells[i]) + "\n";
     games.insert(game_of(cells[i], part_of(experiment, cells[i].part).population));
   }
-  text += "ratios refer to " + experiment.baseline_scheme + " with " + experiment.baseline_policy + "\n";
+  text += "ratios refer to " + experiment.baseline().words() + "\n";
   if (experiment.seeds.size() < 2) text += "one seed: without replications no difference can be told from chance\n";
   text += "files: " + std::to_string(games.size()) + " key logs, up to 4 per cell in cells/, runs.jsonl, summary.csv, comparisons.csv, report.html, provenance.json\n";
   text += "open files: " + std::to_string(open_files_needed) + " needed, " + std::to_string(open_files_max) + " allowed\n";

@@ -144,7 +144,7 @@ std::vector<std::pair<double, double>> pairs_of(const Figure& figure, const Cell
 
 void add_ratios(std::vector<SummaryRow>& rows, std::span<const RunRecord> runs, const Baseline& named) {
   for (SummaryRow& row : rows) {
-    const Cell baseline = baseline_of(row, named.scheme, named.policy);
+    const Cell baseline = baseline_of(row, named);
     for (const Figure& figure : all_figures) row.ratios.push_back(baseline == row ? std::nullopt : ratio_of(pairs_of(figure, row, baseline, runs)));
   }
 }
@@ -245,14 +245,14 @@ std::string to_csv(std::span<const SummaryRow> rows) {
 }
 
 std::string comparisons_csv(std::span<const SummaryRow> rows, const Baseline& baseline) {
-  std::string csv = cell_columns() + std::string(",baseline_scheme,baseline_policy,figure,ratio,ratio_low,ratio_high,pairs,difference\n");
+  std::string csv = cell_columns() + std::string(",baseline_scheme,baseline_policy,figure,ratio,ratio_low,ratio_high,pairs,difference,baseline\n");
   for (const SummaryRow& row : rows) {
     for (std::size_t i = 0; i < all_figures.size(); ++i) {
       const std::optional<Ratio>& ratio = row.ratios[i];
       if (!ratio) continue;
       const auto [low, high] = ends_of(ratio->interval);
       csv += cell_values(row) + "," + csv_text(baseline.scheme) + "," + csv_text(baseline.policy) + "," + all_figures[i].name + "," + csv_number(ratio->value) + "," +
-             csv_number(low) + "," + csv_number(high) + "," + std::to_string(ratio->pairs) + "," + words_for(ratio->difference()) + "\n";
+             csv_number(low) + "," + csv_number(high) + "," + std::to_string(ratio->pairs) + "," + words_for(ratio->difference()) + "," + csv_text(baseline.words()) + "\n";
     }
   }
   return csv;

@@ -32,11 +32,6 @@ struct Figure {
 /// All figures that are summarised, in the order of summary.csv.
 std::span<const Figure> figures();
 
-/// What ratios refer to: the cells of this scheme and policy.
-struct Baseline {
-  std::string scheme = "none", policy = "periodic";
-};
-
 /// What all replications of a cell say; its seed means nothing.
 struct SummaryRow : Cell {
   std::size_t valid_runs = 0, invalid_runs = 0;

@@ -86,7 +86,7 @@ std::string line_of(const SummaryRow& row, const Baseline& baseline, const Colum
   const auto mean = [&row](const char* name, double scale = 1.0) { return table_number(row.of(name).mean, scale); };
   const std::string runs = row.invalid_runs == 0 ? std::to_string(row.valid_runs)
                                                  : std::to_string(row.valid_runs) + "/" + std::to_string(row.valid_runs + row.invalid_runs);
-  const bool is_baseline = baseline_of(row, baseline.scheme, baseline.policy) == row;
+  const bool is_baseline = baseline_of(row, baseline) == row;
   return formatted("%7u %-*s %-*s", row.clients, static_cast<int>(columns.scheme_width), row.scheme.c_str(), static_cast<int>(columns.policy_width), policy_name(row).c_str()) + values_of(row, columns) +
          formatted(" %6s %6s %18s %6s %8s %5s %5s %5s %6s %6s %6s %3s", mean(payload, 1e-3).c_str(), mean("wire_bytes_per_client_per_s", 1e-3).c_str(),
                    is_baseline ? "baseline" : times_less(row.ratio(payload)).c_str(), fraction_text(row.of("delivered_recall").mean).c_str(), mean(error).c_str(),
@@ -137,12 +137,12 @@ std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& base
     const auto none = row_of(baseline_of(row, baseline.scheme, baseline.policy));
     if (filter == rows.end() || policy == rows.end()) continue;
     const std::string variant = variant_of(row);
-    text += formatted("%u clients, %s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") + (row.mode == rows.front().mode ? "" : ", " + row.mode) + (row.part.empty() ? "" : ", " + row.part) + ": " +
-            times_less(row.ratio(payload)) + " times less payload\n";
+    text += formatted("%u clients, %s with %.20s", row.clients, row.scheme.c_str(), row.policy.c_str()) + (variant.empty() ? "" : " (" + variant + ")") +
+            (row.mode == rows.front().mode ? "" : ", " + row.mode) + (row.part.empty() ? "" : ", " + row.part) + ": " + times_less(row.ratio(payload)) + " times less payload\n";
     text += "        filter alone " + times_less(filter->ratio(payload)) + ", policy alone " + times_less(policy->ratio(payload)) + "; displayed error " +
             table_number(row.of(error).mean) + " mm beside " + table_number(none->of(error).mean) + " mm\n";
   }
-  return text.empty() ? text : "gains over " + baseline.scheme + " with " + baseline.policy + ", 95 % intervals over seeds:\n" + text;
+  return text.empty() ? text : "gains over " + baseline.words() + ", 95 % intervals over seeds:\n" + text;
 }
 
 std::string agreement_text(std::span<const RunRecord> runs) {
@@ -163,10 +163,10 @@ std::string invalid_text(std::span<const RunRecord> runs) {
 }
 
 std::string explanation(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
-  const bool has_comparisons = std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return row.scheme != baseline.scheme || row.policy != baseline.policy; });
+  const bool has_comparisons = std::any_of(rows.begin(), rows.end(), [&](const SummaryRow& row) { return baseline_of(row, baseline) != row; });
   std::string text = "down: payload to each client; wire: both directions with headers; displ. err.: displayed error, RMS;\n";
-  text += has_comparisons ? "times less: than " + baseline.scheme + " with " + baseline.policy + ", 95 % interval over seeds;\n"
-                          : "nothing is compared: all cells are of the baseline, " + baseline.scheme + " with " + baseline.policy + ";\n";
+  text += has_comparisons ? "times less: than " + baseline.words() + ", 95 % interval over seeds;\n"
+                          : "nothing is compared: all cells are of the baseline, " + baseline.words() + ";\n";
   const auto any = [&rows](Difference difference) {
     return std::any_of(rows.begin(), rows.end(), [difference](const SummaryRow& row) { return row.ratio(payload) && row.ratio(payload)->difference() == difference; });
   };

@@ -16,6 +16,10 @@ bool is_comparable(const Cell& a, const Cell& b) {
 
 const CellGroup* baseline_for(const Findings& findings, const Cell& cell) {
   const CellGroup* found = nullptr;
+  const Cell named = baseline_of(without_seed(cell), findings.experiment.baseline());
+  for (const CellLine& line : findings.lines)
+    for (const CellGroup& group : line.groups)
+      if (without_seed(group.cell) == named) return &group;
   for (const CellLine& line : findings.lines) {
     for (const CellGroup& group : line.groups) {
       const bool is_baseline = group.cell.scheme == findings.experiment.baseline_scheme && group.cell.policy == findings.experiment.baseline_policy;

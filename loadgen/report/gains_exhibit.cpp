@@ -82,7 +82,7 @@ std::vector<std::string> csv_row(const Gain& gain) {
 void add_gains(Exhibit& exhibit, const Findings& findings) {
   const std::vector<Gain> gains = gains_of(findings);
   const bool has_other = std::any_of(gains.begin(), gains.end(), [](const Gain& gain) { return gain.kind != Gain::Kind::baseline; });
-  const std::string baseline = findings.experiment.baseline_scheme + " with " + findings.experiment.baseline_policy;
+  const std::string baseline = findings.experiment.baseline().words();
   if (!has_other) return exhibit.add_absence("There is no valid run of the baseline (" + baseline + ") beside another, so gains cannot be told.");
   PlotTable table{"gains", "Payload bytes of the baseline, " + baseline + ", divided by those of each cell, paired by seed, beside its errors", cell_columns()};
   table.columns.insert(table.columns.end(), {"gain_of", "times_fewer_bytes", "low_95", "high_95", "bytes_per_client_per_s", "displayed_error_mm_rms", "displayed_error_mm_p99",

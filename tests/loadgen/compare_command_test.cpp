@@ -110,7 +110,8 @@ TEST_F(CompareCommandTest, BadInputEndsBeforeAnythingRuns) {
 }
 
 TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
-  write("hang-grid", "");
+  const std::string hanging = "hang-" + running_order(load_experiment(folder_ / "small.toml", {})).back().scheme;
+  write(hanging, "");
   Process compare(test::binary_folder() + "/bin/rink-compare", arguments("small.toml"), {});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (content("out/runs.jsonl").empty() && std::chrono::steady_clock::now() < limit) compare.attend(std::chrono::milliseconds(20));
@@ -118,7 +119,7 @@ TEST_F(CompareCommandTest, AnInterruptKeepsWhatWasMeasured) {
   EXPECT_EQ(compare.ending()->exit_status, 130) << compare.ending()->text();
   EXPECT_THAT(content("out/report.html"), HasSubstr("1 of 2 cells run, 1 valid"));
 
-  std::filesystem::remove(folder_ / "hang-grid");
+  std::filesystem::remove(folder_ / hanging);
   const std::string first = content("out/runs.jsonl");
   std::ofstream(folder_ / "out/runs.jsonl", std::ios::app) << "{\"mode\": \"client-ser";  // as kill -9 would leave it
   EXPECT_EQ(exit_status_of(with("small.toml", {"--resume"})), 0) << errors_;
