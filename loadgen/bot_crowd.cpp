@@ -17,6 +17,8 @@ CrowdTraffic operator-(CrowdTraffic a, const CrowdTraffic& b) {
   a.bytes_sent -= b.bytes_sent;
   a.bytes_received -= b.bytes_received;
   a.segments_sent -= b.segments_sent;
+  a.acknowledgements_sent -= b.acknowledgements_sent;
+  a.kernel_segments_sent -= b.kernel_segments_sent;
   a.kernel_bytes_sent -= b.kernel_bytes_sent;
   a.kernel_bytes_received -= b.kernel_bytes_received;
   a.updates_received -= b.updates_received;
@@ -323,6 +325,8 @@ CrowdTraffic BotCrowd::total_traffic() const {
     sum.bytes_sent += counters.bytes_sent;
     sum.bytes_received += counters.bytes_received;
     sum.segments_sent += counters.segments_sent;
+    sum.acknowledgements_sent += counters.acknowledgements_sent;
+    sum.kernel_segments_sent += counters.kernel_segments_sent.value_or(counters.segments_sent);
     sum.kernel_bytes_sent += counters.kernel_bytes_sent.value_or(counters.bytes_sent);
     sum.kernel_bytes_received += counters.kernel_bytes_received.value_or(counters.bytes_received);
     sum.updates_received += bot->client.mirror().counters().updates;

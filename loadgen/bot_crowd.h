@@ -36,6 +36,7 @@ struct BotCrowdSettings {
 /// What the connections of a crowd carried, summed.
 struct CrowdTraffic {
   std::uint64_t bytes_sent = 0, bytes_received = 0, segments_sent = 0, kernel_bytes_sent = 0, kernel_bytes_received = 0, updates_received = 0;
+  std::uint64_t acknowledgements_sent = 0, kernel_segments_sent = 0;
 };
 
 /// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock: it is handed `now_s` [s], the clock that the server's stamps use.

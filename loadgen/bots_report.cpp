@@ -16,6 +16,8 @@ Json bots_report(const BotCrowd& crowd, const std::string& why_invalid) {
           {"bytes_received", traffic.bytes_received},
           {"bytes_sent", traffic.bytes_sent},
           {"segments_sent", traffic.segments_sent},
+          {"acknowledgements_sent", traffic.acknowledgements_sent},
+          {"kernel_segments_sent", traffic.kernel_segments_sent},
           {"updates_received", traffic.updates_received},
           {"update_age_ms", measured.update_age.to_json()},
           {"key_to_effect_ms", measured.key_to_effect.to_json()},

@@ -20,6 +20,7 @@ Json or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*c
 void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters& counters) {
   for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k], messages += node.messages_sent()[k];
   bytes += counters.bytes_sent, writes += counters.writes, segments += counters.segments_sent;
+  acknowledgements += counters.acknowledgements_sent, kernel_segments += counters.kernel_segments_sent.value_or(counters.segments_sent);
   sent.push_back(counters.bytes_sent);
   const peer::PeerCounters& played = node.peer().counters();
   events.push_back(played.own_events + played.ghost_events);
@@ -29,6 +30,7 @@ void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters
 void TrafficTotals::add(const game::PeerLoad& load) {
   for (std::size_t k = 0; k < game::traffic_count; ++k) by_subject[k] += load.bytes[k], messages += load.messages[k];
   bytes += load.bytes_sent, writes += load.writes, segments += load.segments;
+  acknowledgements += load.acknowledgements, kernel_segments += load.kernel_segments;
   sent.push_back(load.bytes_sent);
   received.push_back(load.bytes_received);
   events.push_back(load.events);
@@ -37,6 +39,7 @@ void TrafficTotals::add(const game::PeerLoad& load) {
 TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
   for (std::size_t k = 0; k < game::traffic_count; ++k) a.by_subject[k] -= b.by_subject[k];
   a.messages -= b.messages, a.bytes -= b.bytes, a.writes -= b.writes, a.segments -= b.segments;
+  a.acknowledgements -= b.acknowledgements, a.kernel_segments -= b.kernel_segments;
   for (std::size_t k = 0; k < b.sent.size(); ++k) a.sent[k] -= b.sent[k], a.received[k] -= b.received[k], a.events[k] -= b.events[k];
   return a;
 }
@@ -79,6 +82,8 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
           {"bytes_received", measured.bytes},
           {"writes_sent", measured.writes},
           {"segments_sent", measured.segments},
+          {"acknowledgements_sent", measured.acknowledgements},
+          {"kernel_segments_sent", measured.kernel_segments},
           {"state_bytes_sent", 2 * (of(Traffic::halo) + of(Traffic::updates))},  // each byte goes both down and up
           {"key_bytes_received", 2 * of(Traffic::keys)},
           {"messages_sent", measured.messages},
@@ -106,6 +111,8 @@ Json players_report(const Cell& cell, const PeerTotals& totals, const Measuremen
           {"bytes_received", totals.measured.bytes},
           {"bytes_sent", totals.measured.bytes},
           {"segments_sent", totals.measured.segments},
+          {"acknowledgements_sent", totals.measured.acknowledgements},
+          {"kernel_segments_sent", totals.measured.kernel_segments},
           {"update_age_ms", measured.update_age.to_json()},
           {"key_to_effect_ms", measured.key_to_effect.to_json()},
           {"keys_due", measured.keys_due},

@@ -18,7 +18,7 @@ namespace rink::loadgen {
 /// What all peers sent, and each carried, since their start or within a span.
 struct TrafficTotals {
   game::TrafficBytes by_subject{};  ///< with frames
-  std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0;
+  std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0, kernel_segments = 0;
   std::vector<std::uint64_t> sent, received;  ///< bytes by peer
   std::vector<std::uint64_t> events;          ///< likewise, of physics
 

@@ -36,7 +36,7 @@ class NetworkedStation : private rti::TransportListener {
   }
   bool is_connected() const { return open_ + 1 == connections_.size(); }
   const std::string& trouble() const { return trouble_; }
-  const rti::TransportCounters& totals() const { return end_.totals(); }
+  rti::TransportCounters totals() const { return end_.totals(); }
 
   void run_once() {
     if (end_.has_arrivals()) end_.poll({}, *this);

@@ -94,6 +94,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("threshold", run.cell.parameters.threshold);
   line.field("extrapolate", run.cell.parameters.extrapolates);
   line.text_or_null("keys_trouble", run.keys_trouble);
+  line.field("acknowledgements_per_s", run.acknowledgements_per_s);
 }
 
 }  // namespace rink::loadgen

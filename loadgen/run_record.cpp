@@ -117,10 +117,21 @@ std::optional<double> per(std::optional<double> amount, std::optional<double> di
   return *amount / *divisor;
 }
 
-std::optional<double> with_headers(std::optional<double> bytes, std::optional<double> segments) {
-  if (!bytes || !segments) return std::nullopt;
-  return *bytes + segment_header_bytes * *segments;
-}
+/// What one process sent on its connections.
+struct Sent {
+  std::optional<double> bytes, segments, acknowledgements;
+
+  explicit Sent(ReportReader& report)
+      : bytes(report.number("bytes_sent")), segments(report.number("segments_sent")), acknowledgements(report.number("acknowledgements_sent")) {
+    const auto kernel_segments = report.number("kernel_segments_sent");
+    // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one of each further two is missing.
+    if (acknowledgements && segments && kernel_segments) *acknowledgements += 0.5 * std::max(0.0, *segments - *kernel_segments);
+  }
+  std::optional<double> with_headers() const {
+    if (!bytes || !segments || !acknowledgements) return std::nullopt;
+    return *bytes + segment_header_bytes * (*segments + *acknowledgements);
+  }
+};
 
 void fill_from_server(RunRecord& record, ReportReader& server) {
   record.entities = server.count("entities");
@@ -138,18 +149,20 @@ void fill_from_server(RunRecord& record, ReportReader& server) {
 
 void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
   const double clients = record.cell.clients;
-  const auto down = server.number("bytes_sent"), up = server.number("bytes_received");
-  const auto segments_down = server.number("segments_sent"), segments_up = bots.number("segments_sent");
+  const Sent by_server(server), by_bots(bots);
+  const auto down = by_server.bytes, up = server.number("bytes_received");
   const auto bots_measured_s = bots.number("measured_s");
-  const auto wire_down_per_s = per(with_headers(down, segments_down), record.measured_s);
-  const auto wire_up_per_s = per(with_headers(bots.number("bytes_sent"), segments_up), bots_measured_s);
+  const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s), wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
   record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
   record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
   if (wire_down_per_s && wire_up_per_s) record.wire_bytes_per_client_per_s = (*wire_down_per_s + *wire_up_per_s) / clients;
   const auto states = server.number_if_there("state_bytes_sent"), keys = server.number_if_there("key_bytes_received");
   if (down && up && *down + *up > 0.0 && states && keys) record.truth.control_bytes_fraction = std::max(0.0, 1.0 - (*states + *keys) / (*down + *up));
-  const auto segments_down_per_s = per(segments_down, record.measured_s), segments_up_per_s = per(segments_up, bots_measured_s);
-  if (segments_down_per_s && segments_up_per_s) record.segments_per_s = *segments_down_per_s + *segments_up_per_s;
+  const auto both = [](std::optional<double> down_per_s, std::optional<double> up_per_s) {
+    return down_per_s && up_per_s ? std::optional(*down_per_s + *up_per_s) : std::nullopt;
+  };
+  record.segments_per_s = both(per(by_server.segments, record.measured_s), per(by_bots.segments, bots_measured_s));
+  record.acknowledgements_per_s = both(per(by_server.acknowledgements, record.measured_s), per(by_bots.acknowledgements, bots_measured_s));
 }
 
 /// A server's node is the server, through which everything goes; peers say what the busiest of them bore.

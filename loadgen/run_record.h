@@ -11,7 +11,7 @@
 
 namespace rink::loadgen {
 
-/// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323); acknowledgements are not counted.
+/// Bytes on the wire around each TCP segment: Ethernet 14, IPv4 20, TCP with timestamps 32 (RFC 894, 791, 9293, 7323).
 inline constexpr double segment_header_bytes = 66.0;
 
 /// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put back since it was last heard of.
@@ -71,6 +71,7 @@ struct RunRecord {
   double duration_s = 0.0, warm_up_s = 0.0;
   std::optional<double> measured_s;
   std::optional<double> segments_per_s, writes_per_s;
+  std::optional<double> acknowledgements_per_s;  ///< segments without payload
   std::optional<std::uint64_t> keys_due, keys_sent;
   std::optional<double> late_sends_fraction;
   std::string keys_trouble;  ///< why there is no `key_to_effect_ms`: the keys were sent too late; empty if not
@@ -92,8 +93,8 @@ RunRecord record_for(const Experiment& experiment, const Cell& cell);
 
 /// Fills `record` from the reports of the server and the bots and judges it. It is valid if both reports are complete and say so themselves, both counted
 /// the same clients and rate as the cell, no client was lost, every due key was sent, and payload and kernel counts agree within 1 %. Keys sent too late
-/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the planned keys at their instants whenever they come, all else elsewhere.
-/// In virtual time there is neither a kernel nor a clock to measure costs by: such figures may be null in the reports and stay absent.
+/// (`Measurements::schedule_trouble`) cost it only the figures of keys where a server applies the planned keys at their instants whenever they come, and all
+/// elsewhere. In virtual time there is neither a kernel nor a clock to measure costs by: such figures may be null in the reports and stay absent.
 void judge(RunRecord& record, const nlohmann::json& server_report, const nlohmann::json& bots_report);
 
 /// One line of runs.jsonl, keys in the documented order.

@@ -46,6 +46,7 @@ constexpr std::array all_figures{
     Figure{"send_us_per_tick", [](const RunRecord& run) { return run.send_us_per_tick; }},
     Figure{"server_rss_bytes", [](const RunRecord& run) { return as_number(run.server_rss_bytes); }},
     Figure{"segments_per_s", [](const RunRecord& run) { return run.segments_per_s; }},
+    Figure{"acknowledgements_per_s", [](const RunRecord& run) { return run.acknowledgements_per_s; }},
     Figure{"writes_per_s", [](const RunRecord& run) { return run.writes_per_s; }},
     Figure{"late_sends_fraction", [](const RunRecord& run) { return run.late_sends_fraction; }, Scale::fraction},
     Figure{"server_cpu_s", [](const RunRecord& run) { return run.server_cpu_s; }},

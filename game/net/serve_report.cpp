@@ -47,6 +47,9 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
               {"keys_applied", server.counters().keys_applied},
               {"keys_refused", server.counters().keys_refused},
               {"keys_over_limit", server.counters().keys_over_limit}};
+  report["acknowledgements_sent"] = last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
+  const auto segments = [](const rti::TransportCounters& counters) { return counters.kernel_segments_sent.value_or(counters.segments_sent); };
+  report["kernel_segments_sent"] = segments(last.transport) - segments(first.transport);  // without a kernel as many as by our own count
   // Stages are in the order in which they stand; of two of a kind each has its own entry.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];

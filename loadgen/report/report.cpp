@@ -95,7 +95,7 @@ Exhibit reproduction(const Experiment& experiment, const Provenance& provenance)
 
 constexpr const char* definitions =
     "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; a "
-    "segment carries up to 1,448 bytes; acknowledgements are not counted). Displayed error: distance between where a client shows an entity at an instant and where it truly is then; at matched "
+    "segment carries up to 1,448 bytes; those without payload, acknowledgements, are counted too). Displayed error: distance between where a client shows an entity at an instant and where it truly is then; at matched "
     "time: the same at the instant that the client's newest state describes. Latencies count from the instant an action was due. A percentile is shown only if ten or more samples lie beyond it, and "
     "averaged only if every valid replication has it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by seed.</p>\n";
 

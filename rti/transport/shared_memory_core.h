@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "rti/transport/delayed_acknowledgements.h"
 #include "rti/transport/readiness.h"
 #include "rti/transport/shared_memory.h"
 #include "rti/transport/shared_ring.h"
@@ -63,6 +64,7 @@ class SharedMemoryTransport::Core {
     std::optional<CloseReason> closed;  ///< nothing: it has opened
     std::string detail;
   };
+  static std::int64_t now_ns();
   Peer* find(ConnectionId connection) const { return connection < peers_.size() ? peers_[connection].get() : nullptr; }
   ConnectionId add(File socket);
   void accept(std::size_t listening);
@@ -89,6 +91,7 @@ class SharedMemoryTransport::Core {
   std::vector<std::unique_ptr<Peer>> peers_;   ///< by connection; null once closed
   std::vector<ConnectionId> open_;             ///< those with rings
   std::vector<TransportCounters> counters_;    ///< by connection
+  std::vector<DelayedAcknowledgements> acknowledgements_;  ///< likewise
   std::vector<News> news_;
   std::vector<std::byte> buffer_;
   TransportListener* listener_ = nullptr;      ///< while polling

@@ -109,6 +109,7 @@ void SharedMemoryTransport::Core::read(ConnectionId connection) {
   buffer_.resize(std::max(buffer_.size(), *waiting));
   if (peer.in.take(buffer_.data(), *waiting)) wake(peer);
   counters_[connection].bytes_received += *waiting;
+  acknowledgements_[connection].received(*waiting, now_ns());
   ++told_;
   listener_->on_bytes(connection, Bytes(buffer_).first(*waiting));
 }
@@ -142,6 +143,7 @@ void SharedMemoryTransport::Core::send(ConnectionId connection, std::span<const 
   TransportCounters& counters = counters_[connection];
   ++counters.writes;
   counters.segments_sent += (size + 1447) / 1448;
+  acknowledgements_[connection].sent(now_ns());
   bool is_queueing = !peer->is_open || peer->queue_from < peer->queue.size();
   for (Bytes part : parts) {
     if (!is_queueing) {

@@ -61,6 +61,7 @@ TransportCounters with_datagrams(TransportCounters counters) {
   counters.bytes_sent += counters.datagram_bytes_sent;
   counters.bytes_received += counters.datagram_bytes_received;
   counters.segments_sent += counters.datagrams_sent;
+  if (counters.kernel_segments_sent) *counters.kernel_segments_sent += counters.datagrams_sent;
   if (counters.kernel_bytes_sent) *counters.kernel_bytes_sent += counters.datagram_bytes_sent;
   if (counters.kernel_bytes_received) *counters.kernel_bytes_received += counters.datagram_bytes_received;
   return counters;

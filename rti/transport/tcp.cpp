@@ -28,9 +28,11 @@ void add_to(TransportCounters& sum, const TransportCounters& one) {
   sum.bytes_received += one.bytes_received;
   sum.writes += one.writes;
   sum.segments_sent += one.segments_sent;
+  sum.acknowledgements_sent += one.acknowledgements_sent;
   sum.queued_bytes += one.queued_bytes;
   *sum.kernel_bytes_sent += one.kernel_bytes_sent.value_or(one.bytes_sent);
   *sum.kernel_bytes_received += one.kernel_bytes_received.value_or(one.bytes_received);
+  *sum.kernel_segments_sent += one.kernel_segments_sent.value_or(one.segments_sent);
 }
 
 asio::error_code last_error() { return {errno, asio::system_category()}; }
@@ -257,6 +259,8 @@ TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
   if (const auto kernel = kernel_counters(peer->file.number())) {
     counters.kernel_bytes_sent = kernel->bytes_acknowledged;
     counters.kernel_bytes_received = kernel->bytes_received;
+    counters.kernel_segments_sent = kernel->data_segments_sent;
+    counters.acknowledgements_sent = kernel->segments_sent - std::min(kernel->segments_sent, kernel->data_segments_sent);
   }
   return counters;
 }

@@ -75,7 +75,7 @@ class TcpTransport::Core {
   File pause_;                                    ///< a timer that ends the time in which nobody is accepted
   std::vector<std::unique_ptr<Peer>> peers_;      ///< by connection; null once closed
   std::deque<std::pair<ConnectionId, TransportCounters>> last_counters_;  ///< of those that closed last
-  TransportCounters closed_{.kernel_bytes_sent = 0, .kernel_bytes_received = 0};  ///< sum over all closed ones
+  TransportCounters closed_{.kernel_bytes_sent = 0, .kernel_bytes_received = 0, .kernel_segments_sent = 0};  ///< sum over all closed ones
   std::vector<Closed> ended_, reporting_;
   std::vector<std::byte> read_buffer_;
   TransportListener* listener_ = nullptr;         ///< while polling

@@ -54,6 +54,10 @@ struct TransportCounters {
   std::size_t queued_bytes = 0;                          ///< accepted by `send`, not yet taken by the operating system
   std::optional<std::uint64_t> kernel_bytes_sent;        ///< acknowledged by the peer's kernel
   std::optional<std::uint64_t> kernel_bytes_received;
+  std::optional<std::uint64_t> kernel_segments_sent;     ///< with data: on loopback fewer and larger ones than `segments_sent`
+  /// Segments without data that this end sent: by the kernel, those of the handshake included; where it carries nothing by the model of DelayedAcknowledgements,
+  /// and none in the transports that have no clock.
+  std::uint64_t acknowledgements_sent = 0;
   /// Apart from the bytes above: datagrams given to and taken from the operating system, and their payload.
   std::uint64_t datagrams_sent = 0, datagrams_received = 0, datagram_bytes_sent = 0, datagram_bytes_received = 0;
 };

@@ -173,6 +173,7 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   }
   line.counters.bytes_received += delivering_.size();
   totals_.bytes_received += delivering_.size();
+  line.acknowledgements.received(delivering_.size(), network_.now_ns());
   listener.on_bytes(connection, delivering_);
   delivering_.swap(network_.parcels_[number].bytes);
 }
@@ -194,6 +195,7 @@ void VirtualEndpoint::send(ConnectionId connection, std::span<const Bytes> parts
   if (size == 0) return;
   if (network_.model_.queued_bytes(line.number, network_.now_ns()) + size > network_.queue_max_) return overflow(connection);
   const std::uint32_t parcel = packed(parts, size);
+  line.acknowledgements.sent(network_.now_ns());
   for (TransportCounters* counters : {&line.counters, &totals_}) {
     counters->bytes_sent += size;
     counters->segments_sent += (size + 1447) / 1448;
@@ -256,7 +258,14 @@ TransportCounters VirtualEndpoint::counters(ConnectionId connection) const {
   if (connection >= lines_.size()) return {};
   TransportCounters counters = lines_[connection].counters;
   counters.queued_bytes = network_.model_.queued_bytes(lines_[connection].number, network_.now_ns());
+  counters.acknowledgements_sent = lines_[connection].acknowledgements.count(network_.now_ns());
   return counters;
+}
+
+TransportCounters VirtualEndpoint::totals() const {
+  TransportCounters sum = totals_;
+  for (const Line& line : lines_) sum.acknowledgements_sent += line.acknowledgements.count(network_.now_ns());
+  return sum;
 }
 
 }  // namespace rink::rti

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rti/transport/delayed_acknowledgements.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
@@ -161,7 +162,7 @@ class VirtualEndpoint final : public Transport {
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
   /// Of all connections, closed ones included; nothing is queued.
-  const TransportCounters& totals() const { return totals_; }
+  TransportCounters totals() const;
 
  private:
   friend class VirtualNetwork;
@@ -174,6 +175,7 @@ class VirtualEndpoint final : public Transport {
     bool is_given_up = false;       ///< nothing gets through: closed once the sender has noticed
     std::int64_t last_ns = 0;       ///< nothing sent from here arrives before this
     TransportCounters counters;
+    DelayedAcknowledgements acknowledgements;
   };
   ConnectionId add_line(VirtualEndpoint* peer, const LineIdentity& identity);
   /// A parcel that tells this end why `connection` is no more; not yet on its way.

@@ -13,7 +13,8 @@ constexpr int version = 1;
 
 Json json_of(const PeerLoad& load) {
   return {{"instant_s", load.instant_s}, {"bytes", load.bytes}, {"messages", load.messages}, {"bytes_sent", load.bytes_sent}, {"bytes_received", load.bytes_received},
-          {"writes", load.writes},       {"segments", load.segments}, {"events", load.events}};
+          {"writes", load.writes},       {"segments", load.segments}, {"acknowledgements", load.acknowledgements},
+          {"kernel_segments", load.kernel_segments}, {"events", load.events}};
 }
 
 PeerLoad load_in(const nlohmann::json& json) {
@@ -22,6 +23,7 @@ PeerLoad load_in(const nlohmann::json& json) {
   load.bytes = json.at("bytes"), load.messages = json.at("messages");
   load.bytes_sent = json.at("bytes_sent"), load.bytes_received = json.at("bytes_received");
   load.writes = json.at("writes"), load.segments = json.at("segments"), load.events = json.at("events");
+  load.acknowledgements = json.at("acknowledgements"), load.kernel_segments = json.at("kernel_segments");
   return load;
 }
 

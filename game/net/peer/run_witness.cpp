@@ -90,6 +90,7 @@ PeerLoad RunWitness::load() const {
   }
   const rti::TransportCounters counters = meeting_.transported();
   load.bytes_sent = counters.bytes_sent, load.bytes_received = counters.bytes_received, load.writes = counters.writes, load.segments = counters.segments_sent;
+  load.acknowledgements = counters.acknowledgements_sent, load.kernel_segments = counters.kernel_segments_sent.value_or(counters.segments_sent);
   const peer::PeerCounters played = session_->counters().peer;
   load.events = played.own_events + played.ghost_events;
   return load;
