@@ -125,12 +125,16 @@ class ReplayJudgement {
   }
 
   /// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the mirror's newest stamp is from before, or nothing came about
-  /// the entity within a window that reaches back before it.
+  /// the entity within a window that reaches back before it, be it an update or the state on an entry.
   bool is_replaced_unheard(const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity) const {
     constexpr double rounding_s = 1e-6;
     const std::optional<double> replaced_s = replay_.replaced_s(entity);
     if (!replaced_s) return false;
-    return sample.matched_s < *replaced_s - rounding_s || (belief.bytes == 0 && *replaced_s > sample.displayed_s - sample.window_s);
+    if (sample.matched_s < *replaced_s - rounding_s) return true;
+    if (belief.bytes > 0 || *replaced_s <= sample.displayed_s - sample.window_s) return false;
+    return std::ranges::none_of(players_[sample.bot].steps, [&](const ScopeStep& step) {
+      return step.is_in && step.entity == entity && step.instant_s >= *replaced_s && step.instant_s <= sample.displayed_s;
+    });
   }
 
   void add_error(PositionErrors& errors, const BotsEvidence::Sample& sample, const BotsEvidence::Belief& belief, std::uint32_t entity,

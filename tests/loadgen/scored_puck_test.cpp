@@ -130,6 +130,14 @@ TEST_F(ScoredPuck, IsNoErrorWhileItsOwnNewsOfATickLagBehindThatOfOthers) {
   EXPECT_NEAR(truth.displayed_error_mm.max.value(), 0.0, 1e-6);
 }
 
+TEST_F(ScoredPuck, IsHeardOfByComingIntoScopeToo) {
+  bots_.bots[0].changes.back() = {first_tick_s_ + 0.01, 100 + puck, true};
+  see(first_tick_s_ + 0.03, first_tick_s_, 0.002, puck_at(first_tick_s_ + 0.03), 0);
+  const TruthFigures truth = judged();
+  EXPECT_EQ(truth.displayed_error_mm.replaced_samples, 0u);
+  EXPECT_NEAR(truth.displayed_error_mm.rms.value(), 2.0 / std::sqrt(2.0), 1e-3) << "of the other bat and of the puck, which is shown right";
+}
+
 TEST_F(ScoredPuck, IsAnErrorLikeAnyOtherOnceTheMirrorHasHeardOrLongSinceShouldHave) {
   see(first_tick_s_ + 0.03, first_tick_s_, 0.0, left_play_, 9);       // told of in that tick, and still shown in the goal
   see(first_tick_s_ + 0.3, first_tick_s_ + 0.2, 0.0, left_play_, 0);  // never told: the filter or the budget kept it from the player
