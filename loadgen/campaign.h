@@ -21,7 +21,8 @@ struct Outcome {
   std::string output_failure;  ///< why results could not be written, empty if they could; nothing runs after that
 };
 
-/// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier start, appending each record to `results`. The key log of a game is written once, to `results`/keys, and shared by all its cells.
+/// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier start, appending each record to `results`. The key log of a game is written
+/// once, to `results`/keys, and shared by all its cells.
 /// Throws ExperimentError, before the first cell runs.
 Outcome run_campaign(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, const KeyLogWriter& write_key_log,
                      Progress& progress, std::vector<RunRecord> kept = {});

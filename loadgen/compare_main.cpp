@@ -32,7 +32,8 @@ namespace {
 
 using namespace rink::loadgen;
 
-enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7, no_baseline = 8, width_not_reached = 9, hung_up = 129, interrupted = 130 };
+enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7,
+                  no_baseline = 8, width_not_reached = 9, hung_up = 129, interrupted = 130 };
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
