@@ -39,7 +39,7 @@ struct Options {
   bool extrapolates = true;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
-  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
+  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
 };
 
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }

@@ -172,7 +172,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   }
   add("--view", decimal(cell.parameters.view_fraction));
   if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
-  if (cell.parameters.view_margin > 0.0) add("--view-margin", decimal(cell.parameters.view_margin));
+  add("--view-margin", decimal(cell.parameters.view_margin));
   if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -47,7 +49,7 @@ enum class Relevance { rectangle, disc };
 /// What a scheme or a client may be told beside its name: one value each in a cell, a list each in an experiment.
 struct Parameters {
   double view_fraction = 0.05;    ///< area of the view / area of the field, above 0 to 1
-  double view_margin = 0.0;       ///< [m] by which the declared region exceeds the view on each side (game::ClientSettings)
+  double view_margin = 0.3;       ///< [m] by which the declared region exceeds the view on each side (game::ClientSettings)
   std::uint32_t sweep_ticks = 0;  ///< ticks ahead over which update regions are swept (game::RegionSweep)
   double cell_size = 0.0;         ///< side of a scheme's cells [m]; 0 lets the scheme choose
   double tick_rate_hz = 30.0;     ///< ticks of the server per second, 1 to 1000: decisions are as old as their inverse
@@ -86,7 +88,7 @@ struct Experiment {
   std::vector<std::uint64_t> seeds{1};
   double duration_s = 3.0;       ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;        ///< [s] played but not measured; 0 to 600
-  std::vector<double> view_fractions{0.05}, view_margins{0.0}, sweep_ticks{0.0}, cell_sizes{0.0}, tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
+  std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0}, tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
   std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< likewise
   std::vector<std::uint32_t> pucks{0}, bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
   double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
@@ -152,6 +154,9 @@ std::string policy_name(const Cell& cell);
 Cell baseline_of(Cell cell, const Baseline& baseline);
 /// The same but for `scheme` and `policy`.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
+
+/// The one of `cells` that the ratios of `cell` refer to; of parameters that `cell` lacks and the baseline has, the first value that is among them. Seeds must agree.
+std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell, const Baseline& baseline);
 
 /// Seeded by each replication: the order in which `cells_of(experiment)` run, so that no cell always follows the same other, and whole replications still come one after
 /// the other, part by part.

@@ -64,6 +64,17 @@ Cell baseline_of(Cell cell, const Baseline& baseline) {
   return without_idle_parameters(std::move(cell));
 }
 
+std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell, const Baseline& baseline) {
+  Cell wanted = baseline_of(cell, baseline);
+  if (std::ranges::find(cells, wanted) != cells.end()) return wanted;
+  for (const Cell& other : cells) {
+    for (const ParameterKind& kind : parameter_kinds())
+      if (!kind.has(cell) && kind.has(wanted)) kind.set(wanted.parameters, kind.of(other.parameters));
+    if (wanted == other) return other;
+  }
+  return std::nullopt;
+}
+
 std::string Baseline::words() const {
   std::string text = scheme + " with " + policy;
   for (const auto& [name, value] : others) text += ", " + name + " " + value;

@@ -144,9 +144,10 @@ std::vector<std::pair<double, double>> pairs_of(const Figure& figure, const Cell
 }
 
 void add_ratios(std::vector<SummaryRow>& rows, std::span<const RunRecord> runs, const Baseline& named) {
+  const std::vector<Cell> cells(rows.begin(), rows.end());
   for (SummaryRow& row : rows) {
-    const Cell baseline = baseline_of(row, named);
-    for (const Figure& figure : all_figures) row.ratios.push_back(baseline == row ? std::nullopt : ratio_of(pairs_of(figure, row, baseline, runs)));
+    const std::optional<Cell> baseline = baseline_among(cells, row, named);
+    for (const Figure& figure : all_figures) row.ratios.push_back(!baseline || *baseline == row ? std::nullopt : ratio_of(pairs_of(figure, row, *baseline, runs)));
   }
 }
 

@@ -27,7 +27,7 @@ std::vector<SummaryRow> measured() {
   for (const Cell& cell : cells_of(experiment())) {
     runs.push_back(record_for(experiment(), cell));
     const double scale = cell.scheme == "none" ? 100.0 : cell.scheme == "grid" ? 10.0 : 4.0;
-    runs.back().down_bytes_per_client_per_s = scale * cell.clients + cell.parameters.view_margin;
+    runs.back().down_bytes_per_client_per_s = scale * cell.clients + (cell.scheme == "none" ? 0.0 : cell.parameters.view_margin);
     runs.back().update_age_ms.p99 = 12.5;
     runs.back().valid = true;
   }
@@ -80,7 +80,7 @@ TEST(Assertion, WhatWasNotMeasuredFailsAndIsNamed) {
   EXPECT_FALSE(holds("not filter_recall >= 0"));
   EXPECT_TRUE(holds("filter_recall >= 0 or 1 > 0"));
   EXPECT_FALSE(holds("down_bytes_per_client_per_s_high > 0")) << "one replication has no interval";
-  EXPECT_THAT(words("filter_recall[scheme=grid,clients=10,view_margin=0] == 1"), HasSubstr("fails, undefined: filter_recall of client-server-grid-periodic-10 = undefined"));
+  EXPECT_THAT(words("filter_recall[scheme=grid,clients=10,view_margin=0] == 1"), HasSubstr("fails, undefined: filter_recall of client-server-grid-periodic-10-margin0 = undefined"));
   EXPECT_FALSE(Assertion("update_age_ms_p99 < 20", experiment()).judge({}).holds) << "nothing ran";
 }
 

@@ -44,6 +44,15 @@ TEST(BaselineOverAnyAxis, ComparesASweepWithOneOfItsOwnValues) {
   EXPECT_THAT(comparisons_csv(summarise(runs, experiment.baseline()), experiment.baseline()), HasSubstr(",\"region with periodic, view_margin 0.3\"\n"));
 }
 
+/// `none` has no margin, so it is compared with the first one that ran.
+TEST(BaselineOverAnyAxis, MayHaveAParameterThatACellLacks) {
+  const Experiment experiment = swept_by("name = 'e'\nscene = 'crowd'\nschemes = ['none', 'region']\nview_margin = [0.5, 0.7]\nbaseline = { scheme = 'region' }");
+  const std::vector<Cell> cells = cells_of(experiment);
+  ASSERT_EQ(cells.front().scheme, "none");
+  EXPECT_EQ(baseline_among(cells, cells.front(), experiment.baseline()).value().parameters.view_margin, 0.5);
+  for (const SummaryRow& row : summarise(runs_of(experiment), experiment.baseline())) EXPECT_EQ(row.ratio("down_bytes_per_client_per_s").has_value(), row.scheme == "none");
+}
+
 TEST(BaselineOverAnyAxis, MayBeTheMode) {
   const Experiment experiment = swept_by("name = 'm'\nscene = 'arena'\ntransport = 'virtual'\nmodes = ['client-server', 'peer-to-peer']\npolicies = 'on-event'\nbaseline = { mode = 'client-server' }");
   std::size_t compared = 0;

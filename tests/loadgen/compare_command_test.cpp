@@ -76,7 +76,7 @@ TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   const std::string runs = content("out/runs.jsonl");
   EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 2);
   EXPECT_THAT(runs, StartsWith("{\"provenance\":{\"taken\""));
-  EXPECT_THAT(content("out/summary.csv"), HasSubstr("client-server,grid,periodic,2,0,0,1,0.05,0,0,0,30,0.005,1,,1,0,"));
+  EXPECT_THAT(content("out/summary.csv"), HasSubstr("client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,,1,0,"));
   EXPECT_THAT(content("out/comparisons.csv"), HasSubstr("cannot be told from one replication"));
   for (const char* file : {"out/runs.jsonl", "out/summary.csv", "out/comparisons.csv", "out/report.html", "out/provenance.json"})
     for (const char* fact : {"commit", "compiler", "flags", "processor", "cores", "kernel", "command", "timer wake-up"}) EXPECT_THAT(content(file), HasSubstr(fact)) << file;

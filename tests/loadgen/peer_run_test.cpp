@@ -34,6 +34,7 @@ class PeerRunTest : public testing::Test {
     experiment_.clients = {9};
     experiment_.seeds = {3};
     experiment_.view_area = 4.0;
+    experiment_.view_margins = {0.0};
     experiment_.tick_rates_hz = {20.0};
     experiment_.warm_up_s = 0.5;
     experiment_.duration_s = 2.0;

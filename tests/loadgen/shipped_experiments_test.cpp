@@ -49,7 +49,7 @@ TEST_P(ShippedExperiment, WithSeveralCellsOfAGameComparesThemWithABaselineThatRu
     if (cell.clients != cells.front().clients || cell.mode != cells.front().mode || cell.pucks != cells.front().pucks) continue;
     if (cell.bats != cells.front().bats || part_of(experiment, cell.part).is_of_curves) continue;
     variants.insert(name_of(without_seed(cell)));
-    const Cell baseline = baseline_of(cell, experiment.baseline_scheme, experiment.baseline_policy);
+    const Cell baseline = baseline_among(cells, cell, experiment.baseline()).value_or(baseline_of(cell, experiment.baseline()));
     if (baseline == cell) continue;
     compared.insert(name_of(without_seed(cell)));
     EXPECT_NE(std::find(cells.begin(), cells.end(), baseline), cells.end()) << name_of(cell) << " refers to " << name_of(baseline) << ", which does not run";

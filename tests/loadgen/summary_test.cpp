@@ -72,7 +72,7 @@ TEST(Summary, RatiosAreToTheBaselinePairedBySeed) {
   EXPECT_NEAR(ratio.value, std::sqrt(30.0 / 100.0 * 36.0 / 104.0), 1e-12);
   EXPECT_TRUE(ratio.interval);
   EXPECT_FALSE(summarise(runs, {"region", "periodic"})[1].ratio("down_bytes_per_client_per_s")) << "no such baseline was run";
-  EXPECT_THAT(comparisons_csv(rows, {}), HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0,0,0,30,0.005,1,,none,periodic,update_age_ms_p50,1,1,1,2,no significant difference,none with periodic\n"));
+  EXPECT_THAT(comparisons_csv(rows, {}), HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,none,periodic,update_age_ms_p50,1,1,1,2,no significant difference,none with periodic\n"));
 }
 
 TEST(Summary, ParametersPucksAndCoresMakeRowsOfTheirOwn) {
@@ -114,7 +114,7 @@ TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(17 + 6 * figures().size()));
   EXPECT_EQ(commas(none), commas(header));
-  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,0,0,1,0.05,0,0,0,30,0.005,1,,2,1,"));
+  EXPECT_THAT(none, testing::StartsWith("client-server,none,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,,2,1,"));
   EXPECT_THAT(none, HasSubstr(",102,"));
   EXPECT_THAT(none, HasSubstr(",,,,"));  // update_age_ms_p999
   EXPECT_THAT(none, Not(HasSubstr("1e+09")));

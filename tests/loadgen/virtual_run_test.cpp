@@ -194,6 +194,7 @@ TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionT
   const auto truth = [this](const std::string& scheme) {
     Cell cell = first_cell();
     cell.scheme = scheme;
+    cell.parameters.view_margin = 0.0;
     return run(cell).truth;
   };
   const TruthFigures all = truth("aura or team or always"), near = truth("aura"), mates = truth("team"), own = truth("owner");
