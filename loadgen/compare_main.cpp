@@ -241,6 +241,10 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   if (continuation.kept.empty()) results.set_head(to_json(JournalHead{identity.experiment, identity.commit, provenance.facts}));
 
   Progress progress(std::cerr, isatty(STDERR_FILENO) != 0, cells_of(experiment).size() - continuation.kept.size(), expected_cell_s(experiment));
+  const auto is_kept = [&continuation](const Cell& cell) { return std::ranges::any_of(continuation.kept, [&cell](const RunRecord& run) { return run.cell == cell; }); };
+  double to_come_s = 0.0;
+  for (const Cell& cell : cells) to_come_s += is_kept(cell) ? 0.0 : expected_cell_s(experiment, cell);
+  progress.expect([&experiment](const Cell& cell) { return expected_cell_s(experiment, cell); }, to_come_s);
   const auto write_keys = [&experiment](const Cell& cell, const std::filesystem::path& file) { write_game_plan(part_of(experiment, cell.part), cell, file); };
   std::vector<Saturation> found;
   std::vector<WideRow> wide;

@@ -15,13 +15,13 @@ std::string clock_text(double duration_s) {
   return text;
 }
 
+}  // namespace
+
 /// Virtual time passes as fast as the machine computes, several cells beside each other.
 double expected_cell_s(const Experiment& experiment, const Cell& cell) {
   const Experiment& part = part_of(experiment, cell.part);
   return part.transport == TransportKind::virtual_time ? 0.2 : part.warm_up_s + part.duration_s + 1.0;
 }
-
-}  // namespace
 
 double expected_cell_s(const Experiment& experiment) {
   double sum_s = 0.0;

@@ -28,6 +28,7 @@ Progress::Progress(std::ostream& out, bool is_terminal, std::size_t cell_count, 
     : out_(out), is_terminal_(is_terminal), cell_count_(cell_count), expected_cell_s_(expected_cell_s) {}
 
 double Progress::left_s() const {
+  if (expected_of_) return (expected_s_ - expected_done_s_) * (expected_done_s_ > 0.0 ? spent_s_ / expected_done_s_ : 1.0);
   const double cell_s = finished_count_ == 0 ? expected_cell_s_ : spent_s_ / static_cast<double>(finished_count_);
   return cell_s * static_cast<double>(cell_count_ - finished_count_);
 }
@@ -40,6 +41,7 @@ void Progress::starts(const Cell& cell) {
 void Progress::finished(const RunRecord& record, double took_s) {
   ++finished_count_;
   spent_s_ += took_s;
+  if (expected_of_) expected_done_s_ += expected_of_(record.cell);
   clear();
   const std::string line = position(finished_count_, cell_count_) + words_for(record.cell);
   if (!record.valid) {

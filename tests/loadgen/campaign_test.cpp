@@ -214,5 +214,19 @@ TEST(ProgressLine, TimeLeftFollowsTheMeanOfTheFinishedCells) {
   EXPECT_THAT(text.str(), AllOf(HasSubstr("[3/4] grid, periodic, 30 clients, seed 7"), HasSubstr("0:06 left")));
 }
 
+TEST(ProgressOfUnequalCells, ReckonsWithWhatEachIsExpectedToTake) {
+  std::ostringstream text;
+  Progress progress(text, false, 3, 1.0);
+  progress.expect([](const Cell& cell) { return cell.clients == 100 ? 10.0 : 1.0; }, 12.0);
+  RunRecord record;
+  record.valid = true;
+  record.cell = {"client-server", "grid", "periodic", 10, 1};
+  progress.finished(record, 2.0);
+  EXPECT_THAT(text.str(), HasSubstr("about 0:22 left")) << "twice what the eleven seconds that are left were expected to take";
+  record.cell.clients = 100;
+  progress.finished(record, 9.0);
+  EXPECT_THAT(text.str(), HasSubstr("about 0:01 left"));
+}
+
 }  // namespace
 }  // namespace rink::loadgen
