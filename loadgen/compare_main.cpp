@@ -10,6 +10,7 @@
 
 #include "game/net/flags.h"
 #include "game/version/version.h"
+#include "loadgen/artefact.h"
 #include "loadgen/assertion.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
@@ -22,6 +23,7 @@
 #include "loadgen/report/saturation_exhibit.h"
 #include "loadgen/report/write_report.h"
 #include "loadgen/resume.h"
+#include "loadgen/run_journal.h"
 #include "loadgen/saturate_command.h"
 #include "loadgen/sequential.h"
 #include "loadgen/server_cores.h"
@@ -33,7 +35,7 @@ namespace {
 using namespace rink::loadgen;
 
 enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7,
-                  no_baseline = 8, width_not_reached = 9, hung_up = 129, interrupted = 130 };
+                  no_baseline = 8, width_not_reached = 9, bad_report_folder = 10, not_repeated = 11, hung_up = 129, interrupted = 130 };
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
@@ -42,7 +44,8 @@ The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
              printed (the folder is complete); 8 a baseline that no cell has; 9 intervals are wider than --until-width
-             asks for after --seeds replications; 129 the terminal went away; 130 interrupted (what was measured is kept).
+             asks for after --seeds replications; 10 the folder of --from lacks a file, has one altered or is of another
+             version; 11 what --from repeats says something else; 129 the terminal went away; 130 interrupted (what was measured is kept).
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
@@ -79,7 +82,7 @@ void heed_signals() {
 
 struct Options {
   std::string experiment;
-  std::string out, programs;
+  std::string out, programs, from;
   bool may_replace = false, is_resumed = false, is_dry_run = false;
   std::vector<std::string> assertions;
   std::uint32_t seeds = 0;
@@ -150,7 +153,9 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
     if (!growths.empty()) results.write("growth.csv", comment + to_csv(growths));
     if (!ratios.empty()) results.write("server_cores.csv", comment + to_csv(ratios));
     results.write("provenance.json", to_json(provenance).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    keep_inputs(results, experiment);
     write_report(results, experiment, runs, provenance, more_sections);
+    write_manifest(results);
   } catch (const OutputError& error) {
     return error.what();
   }
@@ -218,7 +223,8 @@ Continuation opened_results(const Options& options, const Experiment& experiment
 
 ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
   const std::string standard = options.saturate.is_wanted ? "saturate" : "default";
-  Experiment experiment = load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
+  if (!options.from.empty()) check_manifest(options.from);
+  Experiment experiment = !options.from.empty() ? experiment_of_report(options.from) : load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
   if (options.seeds > 0) set_seeds(experiment, options.until_width > 0.0 ? std::min(options.seeds, least_replications) : options.seeds);
   std::vector<Assertion> assertions;
   for (const std::string& text : options.assertions) assertions.emplace_back(text, experiment);
@@ -270,7 +276,12 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   const bool do_assertions_hold = judge(assertions, experiment, outcome);
   if (!std::cout) std::cerr << "rink-compare: the table could not be printed; it is in " << (results.path() / "report.html").string() << "\n";
   for (const WideRow& row : wide) std::cerr << "rink-compare: --until-width: after " << row.runs << " replications " << row.words << "\n";
-  const ExitStatus status = status_of(outcome, do_assertions_hold);
+  ExitStatus status = status_of(outcome, do_assertions_hold);
+  if (!options.from.empty() && !outcome.was_interrupted) {
+    const Repetition repetition = repetition_of(read_journal(std::filesystem::path(options.from) / "runs.jsonl").runs, outcome.runs);
+    (repetition.is_same() ? std::cout : std::cerr) << words_for(repetition, options.from) << std::flush;
+    if (status == success && !repetition.is_same()) status = not_repeated;
+  }
   return status == success && !wide.empty() ? width_not_reached : status;
 }
 
@@ -298,12 +309,23 @@ int main(int argc, char** argv) {
   app.add_option("--assert", options.assertions, "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be given again (docs/experiments.md)")
       ->take_all()
       ->allow_extra_args(false);
+  app.add_option("--from", options.from, "repeat the experiment of this report folder, which must be as it was written, and compare")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(app.get_option("EXPERIMENT"))
+      ->excludes(resume);
   app.add_option("--seeds", options.seeds, "replications of every cell: so many of the experiment's seeds, and the numbers after them; with --until-width at most so many")->check(rink::game::number_from(1, 10'000));
-  app.add_option_function<std::string>("--until-width", [&options](const std::string& text) { options.until_width = width_in(text); },
+  const auto take_width = [&options](const std::string& text) {
+    try {
+      options.until_width = width_in(text);
+    } catch (const ExperimentError& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  };
+  app.add_option_function<std::string>("--until-width", take_width,
                                        "replications until the 95 % interval of every row's payload is at most so wide, such as 5%: from its middle to either end, of the mean (docs/experiments.md)");
   app.add_option("--programs", options.programs, "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(app, options.saturate);
-  for (const char* flag : {"--resume", "--dry-run", "--assert", "--seeds", "--until-width"}) app.get_option("--saturate")->excludes(app.get_option(flag));
+  for (const char* flag : {"--resume", "--dry-run", "--assert", "--seeds", "--until-width", "--from"}) app.get_option("--saturate")->excludes(app.get_option(flag));
   app.footer(schemes_and_stages() + footer);
   try {
     app.parse(argc, argv);
@@ -320,6 +342,9 @@ int main(int argc, char** argv) {
   } catch (const ExperimentError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
     return bad_usage;
+  } catch (const ReportFolderError& error) {
+    std::cerr << "rink-compare: " << error.what() << "\n";
+    return bad_report_folder;
   } catch (const OutputError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
     return output_failed;

@@ -1,0 +1,158 @@
+// Writes and checks the manifest, reads an experiment back, compares runs.
+#include "loadgen/artefact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "game/model/byte_hash.h"
+#include "game/model/scene_file.h"
+#include "game/players/player.h"
+#include "game/version/version.h"
+
+namespace rink::loadgen {
+namespace {
+
+constexpr const char* manifest_name = "manifest.json";
+
+struct Seal {
+  std::uint64_t bytes = 0;
+  std::string hash;
+  friend bool operator==(const Seal&, const Seal&) = default;
+};
+
+Seal seal_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  game::ByteHash hash;
+  Seal seal;
+  std::array<char, 1 << 16> block;
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(stream.gcount());
+    hash.add(std::string_view(block.data(), count));
+    seal.bytes += count;
+  }
+  seal.hash = game::hexadecimal(hash.value());
+  return seal;
+}
+
+std::string text_in(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (std::filesystem::is_directory(file) || !stream || !(text << stream.rdbuf())) throw ReportFolderError(file.string() + ": cannot be read: expected a file of a report folder");
+  return text.str();
+}
+
+/// Whether the log lies where the experiment, read from the folder, will look for it.
+bool is_below_experiment(const std::filesystem::path& log) { return log.is_relative() && !log.empty() && log.begin()->string() != ".."; }
+
+bool has_installed_scene(const std::string& name, const std::string& text) {
+  try {
+    return !name.ends_with(".toml") && game::scene_text(name) == text;
+  } catch (const game::SceneError&) {
+    return false;
+  }
+}
+
+void set_scene(Experiment& experiment, const std::string& scene) {
+  experiment.scene = scene;
+  for (Experiment& part : experiment.parts) part.scene = scene;
+}
+
+}  // namespace
+
+void keep_inputs(const ResultsDirectory& results, const Experiment& experiment) {
+  results.write("experiment.toml", experiment.text);
+  results.write("scene.toml", game::scene_text(experiment.scene));
+  std::vector<const Experiment*> all{&experiment};
+  for (const Experiment& part : experiment.parts) all.push_back(&part);
+  for (const Experiment* each : all) {
+    const std::filesystem::path log = std::filesystem::path(each->players).filename();
+    if (game::is_player_kind(each->players) || !is_below_experiment(log)) continue;
+    results.write(log.string(), text_in(each->players));
+  }
+}
+
+void write_manifest(const ResultsDirectory& results) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(results.path()))
+    if (entry.is_regular_file()) found.push_back(std::filesystem::relative(entry.path(), results.path()));
+  std::ranges::sort(found);
+  for (const std::filesystem::path& name : found) {
+    if (name == manifest_name) continue;
+    const Seal seal = seal_of(results.path() / name);
+    files[name.generic_string()] = {{"bytes", seal.bytes}, {"fnv1a", seal.hash}};
+  }
+  const nlohmann::ordered_json manifest{{"schema", report_schema}, {"version", game::built_version()}, {"files", files}};
+  results.write(manifest_name, manifest.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void check_manifest(const std::filesystem::path& folder) {
+  const std::string name = (folder / manifest_name).string();
+  const auto manifest = nlohmann::json::parse(text_in(folder / manifest_name), nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("schema") || !manifest["schema"].is_number_integer() || !manifest.contains("files") || !manifest["files"].is_object())
+    throw ReportFolderError(name + ": not a manifest of a report folder");
+  if (manifest["schema"] != report_schema)
+    throw ReportFolderError(name + ": of schema " + manifest["schema"].dump() + (manifest.contains("version") ? ", written by version " + manifest["version"].dump() : "") + "; this program reads schema " +
+                            std::to_string(report_schema));
+  for (const auto& [file, sealed] : manifest["files"].items()) {
+    if (!sealed.is_object() || !sealed.contains("bytes") || !sealed["bytes"].is_number_unsigned() || !sealed.contains("fnv1a") || !sealed["fnv1a"].is_string())
+      throw ReportFolderError(name + ": " + file + " has neither length nor hash");
+    if (!std::filesystem::is_regular_file(folder / file)) throw ReportFolderError((folder / file).string() + ": missing, but named in the manifest");
+    if (seal_of(folder / file) != Seal{sealed["bytes"].get<std::uint64_t>(), sealed["fnv1a"].get<std::string>()})
+      throw ReportFolderError((folder / file).string() + ": altered since the report was written");
+  }
+  for (const char* needed : {"experiment.toml", "scene.toml", "runs.jsonl"})
+    if (!manifest["files"].contains(needed)) throw ReportFolderError(name + ": names no " + needed);
+}
+
+Experiment experiment_of_report(const std::filesystem::path& folder) {
+  Experiment experiment = parse_experiment(text_in(folder / "experiment.toml"), folder / "experiment.toml", {});
+  if (!has_installed_scene(experiment.scene, text_in(folder / "scene.toml"))) set_scene(experiment, (folder / "scene.toml").string());
+  return experiment;
+}
+
+Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunRecord> again) {
+  Repetition result;
+  for (const RunRecord& run : again) {
+    const auto twin = std::ranges::find_if(before, [&run](const RunRecord& other) { return other.cell == run.cell; });
+    if (twin == before.end() || !twin->valid || !run.valid) continue;
+    if (run.transport == "virtual") {
+      RunRecord other = *twin;
+      other.scene = run.scene;
+      ++result.virtual_runs;
+      if (to_json(other).dump() == to_json(run).dump()) ++result.virtual_same;
+      else result.differing.push_back(name_of(run.cell) + ": other figures in virtual time");
+      continue;
+    }
+    if (run.keys == "replay") {
+      ++result.games;
+      if (twin->state_hash == run.state_hash) ++result.games_same;
+      else result.differing.push_back(name_of(run.cell) + ": ends in state " + run.state_hash + " instead of " + twin->state_hash);
+    }
+    if (run.down_bytes_per_client_per_s && twin->down_bytes_per_client_per_s && *twin->down_bytes_per_client_per_s > 0.0)
+      result.payload_apart = std::max(result.payload_apart, std::abs(*run.down_bytes_per_client_per_s / *twin->down_bytes_per_client_per_s - 1.0));
+  }
+  return result;
+}
+
+std::string words_for(const Repetition& repetition, const std::filesystem::path& folder) {
+  std::string text = "repeats " + folder.string() + ":";
+  const auto count = [](std::size_t same, std::size_t all) { return std::to_string(same) + " of " + std::to_string(all); };
+  if (repetition.virtual_runs > 0) text += " " + count(repetition.virtual_same, repetition.virtual_runs) + " runs in virtual time say the same in every figure;";
+  if (repetition.games > 0) {
+    char apart[64];
+    std::snprintf(apart, sizeof apart, "%.2g %%", 100.0 * repetition.payload_apart);
+    text += " " + count(repetition.games_same, repetition.games) + " runs by the clock end in the same state, their payloads at most " + apart + " apart;";
+  }
+  if (repetition.virtual_runs + repetition.games == 0) text += " no run of both can be compared;";
+  text.back() = '\n';
+  for (const std::string& difference : repetition.differing) text += "  " + difference + "\n";
+  return text;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,98 @@
+// A report folder holds all that it takes to repeat it, and says what is missing or altered.
+#include "loadgen/artefact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/command.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ReportFolder : public test::CommandTest {
+ protected:
+  ReportFolder() : CommandTest("artefact") {
+    write("small.toml", "name = 'small'\nscene = 'own.toml'\npopulation = 'per_client'\nschemes = ['none', 'region']\nclients = 3\nduration_s = 0.5\nwarm_up_s = 0.1\ntransport = 'virtual'\n"
+                        "baseline = { scheme = 'none' }\n");
+    std::filesystem::copy_file(test::source_folder() + "/scenes/crowd.toml", folder_ / "own.toml");
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void replace(const std::string& name, const std::string& what, const std::string& by) const {
+    std::string text = content(name);
+    const auto at = text.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    write(name, text.replace(at, what.size(), by));
+  }
+  std::string content(const std::string& name) const { return test::text_of(folder_ / name); }
+  int make() { return run("compare " + file("small.toml") + " --out " + file("first")); }
+  int repeat(const std::string& more = "") { return run("compare --from " + file("first") + " --out " + file("second") + " --force" + more); }
+};
+
+TEST_F(ReportFolder, IsRepeatedWithTheSameFiguresThoughSceneAndExperimentHaveGone) {
+  ASSERT_EQ(make(), 0) << said_;
+  std::filesystem::remove(folder_ / "own.toml");
+  std::filesystem::remove(folder_ / "small.toml");
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time say the same in every figure"));
+  EXPECT_EQ(run("compare --from " + file("second") + " --out " + file("third")), 0) << "what repeats is a report folder itself: " << said_;
+}
+
+TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun) {
+  ASSERT_EQ(make(), 0) << said_;
+  replace("first/runs.jsonl", "\"update_age_samples\":", "\"update_age_samples\":1");
+  write_manifest(ResultsDirectory::resumed(folder_ / "first", content("first/runs.jsonl").size()));
+  EXPECT_EQ(repeat(), 11);
+  EXPECT_THAT(said_, AllOf(HasSubstr("1 of 2 runs in virtual time say the same"), HasSubstr("-3-seed1: other figures in virtual time")));
+}
+
+TEST_F(ReportFolder, IsRefusedByTheFileThatIsAlteredOrMissing) {
+  ASSERT_EQ(make(), 0) << said_;
+  for (const char* name : {"first/scene.toml", "first/experiment.toml", "first/runs.jsonl", "first/keys/seed1-3.keys", "first/report.html"}) {
+    const std::string before = content(name);
+    ASSERT_FALSE(before.empty()) << name;
+    write(name, before + " ");
+    EXPECT_EQ(repeat(), 10) << name;
+    EXPECT_THAT(said_, HasSubstr(file(name) + ": altered since the report was written"));
+    std::filesystem::remove(folder_ / name);
+    EXPECT_EQ(repeat(), 10) << name;
+    EXPECT_THAT(said_, HasSubstr(file(name) + ": missing, but named in the manifest"));
+    write(name, before);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "second")) << "nothing was begun";
+  EXPECT_EQ(repeat(), 0) << said_;
+}
+
+TEST_F(ReportFolder, OfAnotherVersionOrNoneIsNamed) {
+  ASSERT_EQ(make(), 0) << said_;
+  replace("first/manifest.json", "\"schema\": 1", "\"schema\": 2");
+  EXPECT_EQ(repeat(), 10);
+  EXPECT_THAT(said_, AllOf(HasSubstr("manifest.json: of schema 2, written by version"), HasSubstr("this program reads schema 1")));
+  write("first/manifest.json", "[]");
+  EXPECT_EQ(repeat(), 10);
+  EXPECT_THAT(said_, HasSubstr("not a manifest of a report folder"));
+  std::filesystem::remove(folder_ / "first/manifest.json");
+  EXPECT_EQ(repeat(), 10);
+  EXPECT_THAT(said_, HasSubstr("manifest.json: cannot be read"));
+  EXPECT_NE(run("compare small --from " + file("first")), 0) << "either an experiment or a folder";
+  EXPECT_EQ(run("compare --from " + file("nowhere")), 2);
+}
+
+TEST_F(ReportFolder, WithABaselineThatNoCellHasEndsWithItsOwnStatus) {
+  replace("small.toml", "scheme = 'none'", "scheme = 'grid'");
+  EXPECT_EQ(make(), 8);
+  EXPECT_THAT(said_, HasSubstr("no cell of the experiment is grid with periodic"));
+  replace("small.toml", "scheme = 'grid'", "scheme = 'none'");
+  EXPECT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --seeds 4 --until-width 0.0001%"), 9) << said_;
+  EXPECT_THAT(said_, HasSubstr("after 4 replications the payload of"));
+  EXPECT_EQ(run("compare " + file("small.toml") + " --until-width wide"), 2);
+  EXPECT_EQ(run("compare " + file("small.toml") + " --out " + file("again") + " --seeds 4 --until-width 90%"), 0) << said_;
+  EXPECT_THAT(content("again/report.html"), HasSubstr("6 of 6 cells run")) << "three replications are enough for that";
+}
+
+}  // namespace
+}  // namespace rink::loadgen
