@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/linear_fit.h"
 #include "loadgen/power_fit.h"
 #include "loadgen/run_record.h"
 
@@ -26,6 +27,10 @@ struct Growth {
   std::string held;       ///< the others' values, for a reader, e.g. "100 bats, 1000 pucks"
   std::string figure;     ///< the column of runs.jsonl, e.g. filter_us_per_tick; total_us_per_tick is the sum of the three parts
   PowerFit fit;
+  LinearFit line;              ///< a constant and a proportional part
+  bool is_line_better = false; ///< of the two the one with the smaller residual of the logarithms
+  double most = 0.0;           ///< largest number that ran
+  double period_us = 0.0;      ///< of a tick
 };
 
 /// All growths that the valid runs show: wherever one of clients, pucks and bats takes three or more values while the other two, mode, scheme, policy,
@@ -34,6 +39,10 @@ std::vector<Growth> growths_of(std::span<const RunRecord> runs);
 
 /// As CSV (RFC 4180), a line each; what is absent is empty.
 std::string to_csv(std::span<const Growth> growths);
+
+/// How many clients a server holds by the better of the two fits: as many as let 99 % of its ticks end within their period, or 90 % where too few ticks ran for more.
+/// A line for each scheme and policy whose clients grow and of which such a percentile is known; empty if there is none. Beyond what ran it is an extrapolation, and says so.
+std::string capacity_text(std::span<const Growth> growths);
 
 /// As text for a terminal, at most 100 columns; empty if there is none.
 std::string growth_table(std::span<const Growth> growths);

@@ -92,7 +92,9 @@ void add_exponents(Exhibit& exhibit, std::span<const Growth> growths) {
                     "</td><td class=\"text\">" + escaped(growth.figure) + "</td><td>" + plain_number(growth.fit.exponent) + bounds(growth.fit.exponent_low, growth.fit.exponent_high) + "</td><td>" +
                     plain_number(growth.fit.r_squared, 4) + "</td><td class=\"text\">" + verdict + "</td></tr>\n";
   }
-  exhibit.html += "</tbody></table></div>\n<p class=\"data\">Data: growth.csv</p>\n";
+  exhibit.html += "</tbody></table></div>\n";
+  if (const std::string capacity = capacity_text(growths); !capacity.empty()) exhibit.html += "<h3>How many clients the server holds</h3>\n<pre>" + escaped(capacity) + "</pre>\n";
+  exhibit.html += "<p class=\"data\">Data: growth.csv</p>\n";
 }
 
 void add_cores(Exhibit& exhibit, std::span<const CoresRatio> ratios) {
