@@ -79,6 +79,10 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
   }
   read("baseline_scheme", result.baseline_scheme, schemes);
   read("baseline_policy", result.baseline_policy, policies);
+  if (reader.has("baseline")) {  // cells differ from it in what it names alone
+    if (!reader.has("baseline_scheme")) result.baseline_scheme.clear();
+    if (!reader.has("baseline_policy")) result.baseline_policy.clear();
+  }
   for (auto& [key, value] : reader.texts_of("baseline")) {
     if (key == "scheme") result.baseline_scheme = value;
     else if (key == "policy") result.baseline_policy = value;

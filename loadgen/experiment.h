@@ -70,9 +70,9 @@ struct Vocabulary {
   std::vector<std::string> policies = known_policies();
 };
 
-/// What ratios refer to: the cell that is the same but for the scheme, the policy, and whatever else is named.
+/// What ratios refer to: the cell that is the same but for what is named.
 struct Baseline {
-  std::string scheme = "none", policy = "periodic";
+  std::string scheme = "none", policy = "periodic";                        ///< empty: each cell's own
   std::vector<std::pair<std::string, std::string>> others{};  ///< keys of a cell (loadgen/cell_key.h) and their values, as written
   std::string words() const;                                  ///< for a reader, e.g. "none with periodic"
 };
@@ -100,7 +100,8 @@ struct Experiment {
   Relevance relevance = Relevance::rectangle;
   std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side; `always`, what is always relevant
   std::vector<std::string> always;         ///< kinds of bodies that are always relevant; none: as the scene has it (game::relevant_kinds_of)
-  std::string baseline_scheme = "none", baseline_policy = "periodic";  ///< what ratios refer to; read from a file that compares neither: the first of its lists
+  /// What ratios refer to; read from a file that compares neither: the first of its lists; empty beside a table of others that does not name them.
+  std::string baseline_scheme = "none", baseline_policy = "periodic";
   std::vector<std::pair<std::string, std::string>> baseline_others{};      ///< what else of it is named
   Baseline baseline() const { return {baseline_scheme, baseline_policy, baseline_others}; }
   std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the bots on the others; 2: both wherever they like
@@ -152,7 +153,7 @@ std::string policy_name(const Cell& cell);
 
 /// The cell that the ratios of `cell` refer to: the same but for what `baseline` names.
 Cell baseline_of(Cell cell, const Baseline& baseline);
-/// The same but for `scheme` and `policy`.
+/// The same but for `scheme` and `policy`, each its own where that is empty.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
 
 /// The one of `cells` that the ratios of `cell` refer to; of parameters that `cell` lacks and the baseline has, the first value that is among them. Seeds must agree.

@@ -51,9 +51,8 @@ Cell without_idle_parameters(Cell cell) {
 }
 
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy) {
-  cell.scheme = scheme;
-  cell.policy = policy;
-  cell.parameters.extrapolates = true;
+  if (!scheme.empty()) cell.scheme = scheme;
+  if (!policy.empty()) cell.policy = policy, cell.parameters.extrapolates = true;
   return without_idle_parameters(std::move(cell));
 }
 
@@ -76,8 +75,8 @@ std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell
 }
 
 std::string Baseline::words() const {
-  std::string text = scheme + " with " + policy;
-  for (const auto& [name, value] : others) text += ", " + name + " " + value;
+  std::string text = scheme.empty() || policy.empty() ? scheme + policy : scheme + " with " + policy;
+  for (const auto& [name, value] : others) text += (text.empty() ? "" : ", ") + name + " " + value;
   return text;
 }
 

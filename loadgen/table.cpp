@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <string_view>
 #include <vector>
 
 #include "loadgen/parameter.h"
@@ -54,9 +56,12 @@ Columns columns_of(const std::vector<SummaryRow>& rows) {
     columns.scheme_width = std::max(columns.scheme_width, row.scheme.size());
     columns.policy_width = std::max(columns.policy_width, policy_name(row).size());
   }
-  for (const ParameterKind& kind : parameter_kinds())
-    if (!kind.is_switch && std::ranges::any_of(rows, [&](const SummaryRow& row) { return kind.of(row.parameters) != kind.of(rows.front().parameters); }))
-      columns.parameters.push_back(&kind);
+  for (const ParameterKind& kind : parameter_kinds()) {
+    std::set<double> values;
+    for (const SummaryRow& row : rows)
+      if (!kind.is_switch && kind.has(row)) values.insert(kind.of(row.parameters));
+    if (values.size() > 1) columns.parameters.push_back(&kind);
+  }
   return columns;
 }
 
@@ -76,10 +81,22 @@ std::string values_of(const SummaryRow& row, const Columns& columns) {
   return text;
 }
 
-/// What else of the row is not the default, in words.
-std::string rest_of(SummaryRow row, const Columns& columns) {
-  for (const ParameterKind* kind : columns) kind->set(row.parameters, kind->of(Parameters{}));
+/// What else of the row is not the default, in words; parameters that differ have columns, and the block's title has those that do not.
+std::string rest_of(SummaryRow row) {
+  row.parameters = Parameters{};
   return variant_of(row);
+}
+
+/// Parameters that no column shows and that are not the default, of the rows of the block that `first` begins; the rate and the view stand in the title anyway.
+std::string common_parameters(const std::vector<SummaryRow>& rows, const SummaryRow& first, const Columns& columns) {
+  std::string text;
+  for (const ParameterKind& kind : parameter_kinds()) {
+    const std::string_view key = kind.key;
+    if (kind.is_switch || key == "tick_rate_hz" || key == "view_fraction" || std::ranges::find(columns, &kind) != columns.end()) continue;
+    const auto shown = std::ranges::find_if(rows, [&](const SummaryRow& row) { return row.part == first.part && row.mode == first.mode && kind.has(row); });
+    if (shown != rows.end() && kind.of(shown->parameters) != kind.of(Parameters{})) text += ", " + std::string(kind.before) + shortest(kind.of(shown->parameters)) + kind.after;
+  }
+  return text;
 }
 
 std::string line_of(const SummaryRow& row, const Baseline& baseline, const Columns& columns) {
@@ -116,11 +133,11 @@ const RunRecord& run_of(const Cell& row, std::span<const RunRecord> runs) {
 }
 
 /// What all rows have in common; what they differ in has a column.
-std::string block_title(const SummaryRow& row, const RunRecord& run, const Columns& columns) {
+std::string block_title(const std::vector<SummaryRow>& rows, const SummaryRow& row, const RunRecord& run, const Columns& columns) {
   const auto differs = [&columns](const std::string& key) { return std::any_of(columns.begin(), columns.end(), [&key](const ParameterKind* kind) { return key == kind->key; }); };
   const std::string view = run.view_area > 0.0 ? formatted(", each client sees %g m2", run.view_area)
                            : differs("view_fraction") ? "" : formatted(", each client sees %g %% of the field", row.parameters.view_fraction * 100.0);
-  return (row.part.empty() ? "" : row.part + ": ") + formatted("%.30s", row.mode.c_str()) + (differs("tick_rate_hz") ? "" : formatted(" at %g Hz", row.parameters.tick_rate_hz)) + view +
+  return (row.part.empty() ? "" : row.part + ": ") + formatted("%.30s", row.mode.c_str()) + (differs("tick_rate_hz") ? "" : formatted(" at %g Hz", row.parameters.tick_rate_hz)) + view + common_parameters(rows, row, columns) +
          (run.transport == "tcp" && !row.part.empty() ? ", processes over TCP without delay"
                                                      : run.transport == "udp" ? ", datagrams" : run.transport == "shm" ? ", shared memory" : "") + (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms) : "") + "\n";
 }
@@ -128,6 +145,7 @@ std::string block_title(const SummaryRow& row, const RunRecord& run, const Colum
 /// What filter and policy save apart and together, a line for each row that has both.
 std::string gains_text(const std::vector<SummaryRow>& rows, const Baseline& baseline) {
   std::string text;
+  if (baseline.scheme.empty() || baseline.policy.empty()) return text;
   const auto row_of = [&rows](const Cell& cell) { return std::find(rows.begin(), rows.end(), cell); };
   constexpr std::ptrdiff_t lines_max = 8;  // of more than so many rows only that with the fewest bytes of each game
   const bool is_long = std::ranges::count_if(rows, [&](const SummaryRow& row) { return row.scheme != baseline.scheme && row.policy != baseline.policy; }) > lines_max;
@@ -185,11 +203,11 @@ std::string table_of(std::span<const RunRecord> runs, bool is_coloured, const Ba
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool is_new_block = i == 0 || rows[i].mode != rows[i - 1].mode || rows[i].part != rows[i - 1].part;
-    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows[i], run_of(rows[i], runs), columns) + heading(columns);
+    if (is_new_block) text += (i == 0 ? "" : "\n") + block_title(rows, rows[i], run_of(rows[i], runs), columns) + heading(columns);
     if (!is_new_block && !is_same_game(rows[i], rows[i - 1])) text += "\n";
     const bool is_emphasised = is_coloured && has_fewest_bytes(rows[i], rows);
     text += (is_emphasised ? "\033[1;32m" : "") + line_of(rows[i], baseline, columns) + (is_emphasised ? "\033[0m" : "") + "\n";
-    if (const std::string variant = rest_of(rows[i], columns); !variant.empty()) text += "        " + variant + "\n";
+    if (const std::string variant = rest_of(rows[i]); !variant.empty()) text += "        " + variant + "\n";
   }
   return text + explanation(rows, baseline) + gains_text(rows, baseline) + agreement_text(runs) + invalid_text(runs);
 }

@@ -46,7 +46,7 @@ TEST_P(ShippedExperiment, WithSeveralCellsOfAGameComparesThemWithABaselineThatRu
   const std::vector<Cell> cells = cells_of(experiment);
   std::set<std::string> variants, compared;
   for (const Cell& cell : cells) {
-    if (cell.clients != cells.front().clients || cell.mode != cells.front().mode || cell.pucks != cells.front().pucks) continue;
+    if (cell.clients != cells.front().clients || cell.pucks != cells.front().pucks) continue;
     if (cell.bats != cells.front().bats || part_of(experiment, cell.part).is_of_curves) continue;
     variants.insert(name_of(without_seed(cell)));
     const Cell baseline = baseline_among(cells, cell, experiment.baseline()).value_or(baseline_of(cell, experiment.baseline()));
