@@ -39,7 +39,8 @@ enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
-(ratios to the baseline, paired by seed), report.html (reads offline), provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
+(ratios to the baseline, paired by seed), report.html (reads offline), plots/ (each plot as .svg and its data as .csv),
+provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
 
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be

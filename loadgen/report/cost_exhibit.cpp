@@ -67,7 +67,7 @@ Exhibit cost_exhibit(const Findings& findings) {
                   " A note above a bar says that fewer than 99 % of its ticks were on time.</p>\n<div class=\"plots small\">\n";
   for (BarPlot& plot : plots) {
     plot.y_high = has_mark ? std::max(highest, budget_us) : highest;
-    exhibit.add(to_svg(plot), "", {});
+    exhibit.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += "</div>\n" + to_details(table);
   exhibit.tables.push_back(std::move(table));

@@ -8,11 +8,23 @@
 
 namespace rink::loadgen {
 
+namespace {
+
+std::string figcaption(const std::string& caption) { return caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n"; }
+
+}  // namespace
+
 void Exhibit::add(const std::string& svg, const std::string& caption, PlotTable table) {
-  html += "<figure>\n" + svg + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n");
+  pictures.push_back({table.name, svg});
+  html += "<figure>\n" + svg + figcaption(caption);
   if (!table.is_empty()) html += to_details(table);
   html += "</figure>\n";
   if (!table.is_empty()) tables.push_back(std::move(table));
+}
+
+void Exhibit::add_panel(const std::string& table_name, const std::string& svg, const std::string& caption) {
+  pictures.push_back({table_name, svg});
+  html += "<figure>\n" + svg + figcaption(caption) + "</figure>\n";
 }
 
 void Exhibit::add_absence(const std::string& sentence) { html += "<p class=\"faint\">" + escaped(sentence) + "</p>\n"; }
@@ -20,6 +32,7 @@ void Exhibit::add_absence(const std::string& sentence) { html += "<p class=\"fai
 void Exhibit::add(Exhibit other) {
   html += other.html;
   std::move(other.tables.begin(), other.tables.end(), std::back_inserter(tables));
+  std::move(other.pictures.begin(), other.pictures.end(), std::back_inserter(pictures));
 }
 
 std::vector<std::string> cell_columns() { return {"line", "mode", "scheme", "policy", "clients", "runs"}; }

@@ -9,6 +9,7 @@
 #include "loadgen/experiment.h"
 #include "loadgen/histogram.h"
 #include "loadgen/report/cell_lines.h"
+#include "loadgen/report/picture.h"
 #include "loadgen/report/plot_table.h"
 
 namespace rink::loadgen {
@@ -28,13 +29,16 @@ struct Findings {
   std::string relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
 };
 
-/// A section's markup, and the tables behind its plots.
+/// A section's markup, its plots and the tables behind them.
 struct Exhibit {
   std::string html;
   std::vector<PlotTable> tables{};
+  std::vector<Picture> pictures{};  ///< panels of one table have its name, in the order of the page
 
-  /// Adds a figure, its caption and its data; `table` may be empty if another figure shows the same.
+  /// Adds a figure, its caption and its data.
   void add(const std::string& svg, const std::string& caption, PlotTable table);
+  /// Adds a figure of several that show the table called `table_name`.
+  void add_panel(const std::string& table_name, const std::string& svg, const std::string& caption);
   /// Says in a sentence why something is not there.
   void add_absence(const std::string& sentence);
   void add(Exhibit other);

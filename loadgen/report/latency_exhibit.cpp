@@ -131,10 +131,11 @@ bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind
     plot.y_range = {shared.low, shared.high};
     plot.x_range = {0.0, range.most_nines + 0.05};
     plot.x_ticks = nines(range.most_nines);
-    figures.add(to_svg(plot), "", {});
+    figures.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += std::string("<h3>") + kind.title + "</h3>\n<p class=\"faint\">" + kind.meaning +
                   " Lower is better; a curve that turns up at its right end has a tail that means hide.</p>\n<div class=\"plots small\">\n" + figures.html + "</div>\n" + to_details(table);
+  std::move(figures.pictures.begin(), figures.pictures.end(), std::back_inserter(exhibit.pictures));
   exhibit.tables.push_back(std::move(table));
   return true;
 }

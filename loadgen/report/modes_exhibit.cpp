@@ -37,7 +37,7 @@ constexpr Shown against_clients[] = {
     {"busiest-node-events", "Physics of the busiest node", "events per second", "What one machine must compute: the whole, or a part with the ghosts around it.",
      [](const RunRecord& run) { return run.nodes.busiest_events_per_s; }},
     {"busiest-node-cpu", "Processor time of the busiest node", "s", "From start to end, by the kernel.", [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
-    {"key-to-effect", "From key to effect, median", "ms", "From the instant a key was due to the first state of the own bat that has felt it.", [](const RunRecord& run) { return run.key_to_effect_ms.p50; }},
+    {"key-to-effect-median", "From key to effect, median", "ms", "From the instant a key was due to the first state of the own bat that has felt it.", [](const RunRecord& run) { return run.key_to_effect_ms.p50; }},
 };
 
 bool add_plot(Exhibit& exhibit, const Findings& findings, const Shown& shown) {
@@ -78,7 +78,7 @@ void add_bars(Exhibit& exhibit, const Findings& findings) {
       plot.bars.push_back(std::move(bar));
       table.rows.push_back(std::move(row));
     }
-    if (!plot.bars.empty()) exhibit.add(to_svg(plot), "", {});
+    if (!plot.bars.empty()) exhibit.add_panel(table.name, to_svg(plot), "");
   }
   exhibit.html += "</div>\n" + to_details(table);
   exhibit.tables.push_back(std::move(table));

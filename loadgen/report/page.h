@@ -20,6 +20,7 @@ class Page {
  private:
   std::string contents_, body_;
   std::vector<PlotTable> tables_;
+  std::vector<Picture> pictures_;
 };
 
 /// The facts as a list.

@@ -1,4 +1,4 @@
-// The comparison as one HTML page that needs neither network nor script, and the tables behind its plots.
+// The comparison as one HTML page that needs neither network nor script, its plots, and the tables behind them.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +19,7 @@ struct ReportSection {
 struct Report {
   std::string html;
   std::vector<PlotTable> tables;  ///< for plots/NAME.csv
+  std::vector<Picture> pictures;  ///< for plots/NAME.svg: each has a name of its own
 };
 
 /// The page: plots, tables, the runs that did not count with their reasons, definitions, how to reproduce, and provenance. Light and dark follow the

@@ -144,8 +144,10 @@ Exhibit stages_exhibit(const Findings& findings) {
                   " clients. Entities that a client was never told of have no error: read recall beside it.</p>\n<div class=\"plots\">\n";
   by_error.alternative = "Lower left is better: fewer bytes and smaller error. A curve that lies left of and below another gives more for its bytes.";
   by_recall.alternative = "Lower right is better: nothing relevant missing for few bytes.";
-  exhibit.add(to_svg(by_error), by_error.alternative, table_of(curves));
-  exhibit.add(to_svg(by_recall), by_recall.alternative, {});
+  PlotTable table = table_of(curves);
+  const std::string name = table.name;
+  exhibit.add(to_svg(by_error), by_error.alternative, std::move(table));
+  exhibit.add_panel(name, to_svg(by_recall), by_recall.alternative);
   exhibit.html += "</div>\n" + html_of(curves);
   return exhibit;
 }

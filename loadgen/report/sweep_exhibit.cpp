@@ -119,8 +119,9 @@ void add_bytes(Exhibit& exhibit, const std::vector<CellLine>& curves, const std:
   by_recall.alternative = "Lower right is better: nothing relevant missing for few bytes.";
   LinePlot by_precision = plot_of(curves, precision_of_decisions, bytes, "Bytes against precision" + along, label);
   by_precision.alternative = "What is sent beside what is wanted costs bytes; a scheme that lies below another at the same precision leaves out what is relevant.";
+  const std::string name = table.name;
   exhibit.add(to_svg(by_recall), by_recall.alternative, std::move(table));
-  exhibit.add(to_svg(by_precision), by_precision.alternative, {});
+  exhibit.add_panel(name, to_svg(by_precision), by_precision.alternative);
 }
 
 void add_sweep(Exhibit& exhibit, const Findings& findings, const ParameterKind& kind) {
@@ -132,7 +133,7 @@ void add_sweep(Exhibit& exhibit, const Findings& findings, const ParameterKind& 
   both.alternative = "The upper right corner is perfect. A curve is a scheme, its marks the parameter's values; a lone mark is a scheme that has no such parameter.";
   PlotTable table = table_of(curves, std::string("sweep-") + kind.key, "Precision, recall and bytes of each scheme along " + std::string(kind.axis), &kind);
   exhibit.html += "<h3>" + escaped(kind.axis) + "</h3>\n<div class=\"plots small\">\n";
-  exhibit.add(to_svg(both), both.alternative, {});
+  exhibit.add_panel(table.name, to_svg(both), both.alternative);
   add_bytes(exhibit, curves, along, label, std::move(table));
   exhibit.html += "</div>\n" + html_of(curves, kind);
 }

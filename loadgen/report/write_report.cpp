@@ -1,4 +1,4 @@
-// Writes the page last, so that a page that is there has its tables.
+// Writes the page last, so that a page that is there has its plots and tables.
 #include "loadgen/report/write_report.h"
 
 #include <system_error>
@@ -11,9 +11,11 @@ void write_report(const ResultsDirectory& results, const Experiment& experiment,
   const std::filesystem::path plots = results.subdirectory("plots");
   std::error_code ignored;  // what cannot be removed is overwritten or stays
   for (const auto& entry : std::filesystem::directory_iterator(plots, ignored)) {
-    if (entry.path().extension() == ".csv") std::filesystem::remove(entry.path(), ignored);  // plots of earlier runs that this report does not have
+    const auto ending = entry.path().extension();
+    if (ending == ".csv" || ending == ".svg") std::filesystem::remove(entry.path(), ignored);  // plots of earlier runs that this report does not have
   }
   for (const PlotTable& table : report.tables) results.write("plots/" + table.name + ".csv", to_csv(table, provenance));
+  for (const Picture& picture : report.pictures) results.write("plots/" + picture.name + ".svg", to_file(picture));
   results.write("report.html", report.html);
 }
 
