@@ -14,6 +14,7 @@
 #include "loadgen/assertion.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
+#include "loadgen/dictionary.h"
 #include "loadgen/equal_error.h"
 #include "loadgen/growth.h"
 #include "loadgen/modes_table.h"
@@ -28,6 +29,7 @@
 #include "loadgen/sequential.h"
 #include "loadgen/server_cores.h"
 #include "loadgen/table.h"
+#include "loadgen/tidy.h"
 #include "rti/schemes.h"
 
 namespace {
@@ -39,8 +41,8 @@ enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
-(ratios to the baseline, paired by seed), report.html (reads offline), plots/ (each plot as .svg and its data as .csv),
-provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
+(ratios to the baseline, paired by seed), tidy.csv (an observation per line; data-dictionary.csv says what each is),
+report.html (reads offline), plots/ (each plot as .svg and its data as .csv), provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
 
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
@@ -148,6 +150,8 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
     const std::string comment = comment_lines(provenance);
     results.write("summary.csv", comment + to_csv(rows));
     results.write("comparisons.csv", comment + comparisons_csv(rows, baseline));
+    results.write("tidy.csv", comment + tidy_csv(runs));
+    results.write("data-dictionary.csv", comment + data_dictionary_csv());
     if (const auto compared = equal_errors_of(experiment, runs); !compared.empty()) results.write("equal_error.csv", comment + to_csv(compared));
     const auto growths = growths_of(without_curves(experiment, runs));
     const auto ratios = cores_ratios_of(runs);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "loadgen/csv_number.h"
+#include "loadgen/csv_text.h"
 #include "loadgen/parameter.h"
 
 namespace rink::loadgen {
@@ -155,13 +156,6 @@ std::size_t index_of(const char* name) {
   const auto figure = std::find_if(all_figures.begin(), all_figures.end(), [name](const Figure& f) { return std::string_view(f.name) == name; });
   assert(figure != all_figures.end());
   return static_cast<std::size_t>(figure - all_figures.begin());
-}
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + '"';
 }
 
 std::string cell_columns() {

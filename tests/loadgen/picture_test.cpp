@@ -106,8 +106,8 @@ TEST_F(PictureTest, EveryPlotIsAFileNamedAfterItsTable) {
     const std::string table = std::regex_replace(picture, std::regex("-[0-9]+$"), "");
     EXPECT_TRUE(tables.contains(picture) || tables.contains(table)) << picture;
   }
-  EXPECT_THAT(pictures, IsSupersetOf({"bytes-against-error", "cost-per-tick", "cost-per-tick-2", "update-age-3", "stages-2", "sweep-view_margin-3", "traffic-by-subject",
-                                      "replications-payload", "growth-over-clients"}));
+  EXPECT_THAT(pictures, IsSupersetOf({"bytes-against-error", "cost-per-tick", "cost-per-tick-2", "update-age-3", "stages-2", "sweep-view_margin-3",
+                                      "traffic-by-subject", "replications-payload", "growth-over-clients"}));
 }
 
 TEST_F(PictureTest, EachIsWellFormedAndHasAStyleForEveryClassThatItNames) {

@@ -1,0 +1,16 @@
+// Texts as comma-separated files have them.
+#pragma once
+
+#include <string>
+
+namespace rink::loadgen {
+
+/// `text`, in quotes if it holds what separates (RFC 4180).
+inline std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + '"';
+}
+
+}  // namespace rink::loadgen
