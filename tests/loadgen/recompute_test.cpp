@@ -1,0 +1,58 @@
+// The figures of a report in virtual time, computed again from its evidence by a program that shares nothing with the one that wrote them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/command.h"
+
+namespace rink::loadgen {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class RecomputeLongTest : public test::CommandTest {
+ protected:
+  RecomputeLongTest() : CommandTest("compare") {}
+
+  void SetUp() override {
+    if (std::system("python3 -c 'import json' >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+    std::ofstream(file("small.toml")) << "name = 'small'\nscene = 'crowd'\nschemes = ['none', 'aura with dwell(matches=3)', 'region']\n"
+                                         "policies = ['periodic', 'on-event']\nview_margin = [0, 0.3]\nextrapolate = [true, false]\n"
+                                         "tick_rate_hz = 20\nclients = 30\nduration_s = 2\ntransport = 'virtual'\n";
+    ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("out")), 0) << said_;
+  }
+
+  /// The exit status of recompute.py; what it prints is in `printed_`.
+  int recompute() {
+    const std::string script = test::source_folder() + "/docs/analysis/recompute.py";
+    const int status = std::system(("python3 " + script + " " + file("out") + " >" + file("printed") + " 2>&1").c_str());
+    printed_ = content("printed");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+};
+
+TEST_F(RecomputeLongTest, EveryFigureThatNeedsNoPhysicsComesOutTheSameFromTheEvidence) {
+  EXPECT_EQ(recompute(), 0) << printed_;
+  for (const char* figure : {"down_bytes_per_client_per_s", "wire_bytes_per_client_per_s", "messages_per_s", "churn_per_client_per_s", "flapping_fraction",
+                             "fairness_jain", "control_bytes_fraction", "update_age_ms_p50", "ticks"})
+    EXPECT_THAT(printed_, HasSubstr(std::string("agrees   ") + figure + " ("));
+  EXPECT_THAT(printed_, HasSubstr("agrees   ticks (15 runs)")) << "1 + 2 x 2 schemes with margins, 2 + 1 policies with what they extrapolate";
+  for (const char* figure : {"wasted_bytes_fraction", "filter_recall", "displayed_error_mm_rms"})
+    EXPECT_THAT(printed_, HasSubstr(std::string("skipped  ") + figure + ": needs the game played again"));
+  EXPECT_THAT(printed_, AllOf(Not(HasSubstr("DIFFERS")), Not(HasSubstr("no whole evidence"))));
+}
+
+TEST_F(RecomputeLongTest, ANumberThatSomebodyChangedIsNamed) {
+  std::string tidy = content("out/tidy.csv");
+  const std::size_t at = tidy.find(",churn_per_client_per_s,1/s,");
+  ASSERT_NE(at, std::string::npos);
+  tidy.insert(tidy.find('\n', at), "1");  // a digit more
+  std::ofstream(file("out/tidy.csv")) << tidy;
+  const int status = recompute();
+  EXPECT_EQ(status, 1) << printed_;
+  EXPECT_THAT(printed_, AllOf(HasSubstr("DIFFERS  client-server-"), HasSubstr("differs  churn_per_client_per_s"), HasSubstr("agrees   fairness_jain")));
+}
+
+}  // namespace
+}  // namespace rink::loadgen
