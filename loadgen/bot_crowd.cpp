@@ -37,7 +37,8 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
         .federation = settings.federation,
         .name = settings.first + bot < settings.names.size() ? settings.names[settings.first + bot] : "bat-" + std::to_string(settings.first + bot),
         .view_fraction = settings.view_fraction,
-        .view_area = settings.view_area, .view_margin = settings.view_margin, .extrapolates = settings.extrapolates};
+        .view_area = settings.view_area, .view_margin = settings.view_margin, .declares_regions = settings.declares_regions,
+        .extrapolates = settings.extrapolates};
     bots_.push_back(std::make_unique<Bot>(fom, model_, client, measurements_));
     Bot* const bot_there = bots_.back().get();
     bot_there->client.on_news = [this, bot_there](const rti::Stamp& stamp) { note_news(*bot_there, stamp); };

@@ -36,7 +36,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string connect = "127.0.0.1:4711", federation = "rink", plan, report, evidence, players = "random", scene = "crowd", transport = "tcp";
   std::string key_file, federation_file;
-  bool extrapolates = true;
+  bool declares_regions = true, extrapolates = true;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
@@ -104,6 +104,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--view-margin", options.view_margin, "how far the declared region reaches beyond the view [m]; it is declared anew when the bat has moved by half of that")
       ->check(game::number_from(0.0, game::view_margin_max))
       ->capture_default_str();
+  app.add_flag("--regions,!--no-regions", options.declares_regions,
+               "whether bots declare their views as regions, or subscribe to everything: under none, which looks at no places, that is the same and costs nothing up")
+      ->capture_default_str();
   app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates, "whether what is told positions alone (periodic) is believed ahead of the last by the velocity between the last two, or there")->capture_default_str();
   app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
   app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
@@ -169,6 +172,7 @@ game::ExitStatus play(const Options& options) {
                                            .view_fraction = options.view_fraction,
                                            .view_area = options.view_area,
                                            .view_margin = options.view_margin,
+                                           .declares_regions = options.declares_regions,
                                            .extrapolates = options.extrapolates,
                                            .warm_up_s = options.warm_up_s,
                                            .duration_s = options.duration_s,

@@ -8,6 +8,7 @@
 
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
+#include "loadgen/parameter.h"
 #include "loadgen/process.h"
 #include "loadgen/process_run.h"
 #include "loadgen/truth/truth.h"
@@ -173,6 +174,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   add("--view", decimal(cell.parameters.view_fraction));
   if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
   add("--view-margin", decimal(cell.parameters.view_margin));
+  if (!has_regions(cell)) arguments.push_back("--no-regions");
   if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));

@@ -10,10 +10,12 @@
 #include "rti/federation_execution.h"
 
 namespace rink::loadgen {
+
+bool has_regions(const Cell& cell) { return !im::say_the_same(cell.scheme, "none"); }
+
 namespace {
 
 bool always(const Cell&) { return true; }
-bool filters(const Cell& cell) { return cell.scheme != "none"; }
 bool has_cells(const Cell& cell) { return im::takes_cell_size(cell.scheme); }
 bool reckons(const Cell& cell) { return game::takes_threshold(cell.policy); }
 bool tells_positions(const Cell& cell) { return cell.policy == "periodic"; }
@@ -23,11 +25,11 @@ constexpr std::array kinds{
                   [](const Parameters& p) { return p.view_fraction; }, [](Parameters& p, double v) { p.view_fraction = v; }, &Experiment::view_fractions, always,
                   "view", "view ", "", "area of the view [% of the field]", "view, %", 100.0},
     ParameterKind{"view_margin", "numbers from 0 to 1e6", [](double v) { return v >= 0.0 && v <= 1e6; }, false,
-                  [](const Parameters& p) { return p.view_margin; }, [](Parameters& p, double v) { p.view_margin = v; }, &Experiment::view_margins, filters,
+                  [](const Parameters& p) { return p.view_margin; }, [](Parameters& p, double v) { p.view_margin = v; }, &Experiment::view_margins, has_regions,
                   "margin", "margin ", " m", "margin around the view [m]", "margin, m", 1.0},
     ParameterKind{"sweep_ticks", "whole numbers from 0 to 1000", [](double v) { return v >= 0.0 && v <= 1000.0; }, true,
                   [](const Parameters& p) { return static_cast<double>(p.sweep_ticks); }, [](Parameters& p, double v) { p.sweep_ticks = static_cast<std::uint32_t>(v); },
-                  &Experiment::sweep_ticks, filters, "sweep", "swept ", " ticks", "update regions swept over [ticks]", "swept", 1.0},
+                  &Experiment::sweep_ticks, has_regions, "sweep", "swept ", " ticks", "update regions swept over [ticks]", "swept", 1.0},
     ParameterKind{"cell_size", "numbers from 0.001 to 1e6, or 0 (the scheme chooses)", [](double v) { return v == 0.0 || (v >= 1e-3 && v <= 1e6); }, false,
                   [](const Parameters& p) { return p.cell_size; }, [](Parameters& p, double v) { p.cell_size = v; }, &Experiment::cell_sizes, has_cells,
                   "cell", "cells ", " m", "side of a cell [m]", "cells, m", 1.0},

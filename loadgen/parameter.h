@@ -25,6 +25,9 @@ struct ParameterKind {
   bool is_switch = false;                   ///< 1 or 0, which experiments write true and false
 };
 
+/// False of the scheme that lets everything through: its clients declare no regions, and nothing that is about regions changes anything.
+bool has_regions(const Cell& cell);
+
 /// All, in the order of their columns.
 std::span<const ParameterKind> parameter_kinds();
 

@@ -17,6 +17,7 @@
 #include "loadgen/bot_crowd.h"
 #include "loadgen/bots_report.h"
 #include "loadgen/game_plan.h"
+#include "loadgen/parameter.h"
 #include "loadgen/results.h"
 #include "loadgen/truth/truth.h"
 #include "loadgen/virtual_parts.h"
@@ -82,6 +83,7 @@ BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const 
   settings.view_fraction = cell.parameters.view_fraction;
   settings.view_area = experiment.view_area;
   settings.view_margin = cell.parameters.view_margin;
+  settings.declares_regions = has_regions(cell);
   settings.extrapolates = cell.parameters.extrapolates;
   settings.warm_up_s = experiment.warm_up_s;
   settings.duration_s = experiment.warm_up_s + experiment.duration_s;

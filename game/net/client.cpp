@@ -65,8 +65,10 @@ void Client::subscribe_once_seated() {
   if (settings_.only_watches && mirror_.field()) seat_ = SeatOffer{};
   if (state_ != State::joining || !seat_ || !mirror_.field()) return;
   state_ = State::seated;
-  view_ = ambassador_.create_region();
-  look_around(seat_->position);
+  if (settings_.declares_regions) {
+    view_ = ambassador_.create_region();
+    look_around(seat_->position);
+  }
   ambassador_.subscribe_object_class_attributes(model_.entity, {model_.shape, model_.input, model_.position, model_.trajectory, model_.snapshot}, view_);
   if (settings_.only_watches) state_ = State::playing;
 }
@@ -81,6 +83,7 @@ void Client::look_around(const Position& centre) {
 }
 
 void Client::follow_bat(double instant) {
+  if (!settings_.declares_regions) return;
   const MirroredEntity* own = bat();
   if (state_ >= State::refused || !ambassador_.is_joined() || own == nullptr || !own->is_placed) return;
   const Position there = rounded(own->position_at(instant));

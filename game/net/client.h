@@ -24,6 +24,9 @@ struct ClientSettings {
   /// How far the declared region reaches beyond the view on each side [m]. It is declared anew when the bat is half of that from its middle: the other half
   /// covers what the bat moves until the RTI has heard of it.
   double view_margin = 0.0;
+  /// Whether the view is declared as a region that follows the bat. Without it the subscription is to the default region, that is everything: for a scheme
+  /// that looks at no places (`none`), under which declarations would be bytes for nothing.
+  bool declares_regions = true;
   /// Whether entities that are told positions alone are shown ahead by the velocity between the last two; without it, as in the paper, where they were told last.
   bool extrapolates = true;
   bool plays_match = false;  ///< a hosted one: hears of it, may stop it and ask for another

@@ -256,6 +256,21 @@ TEST_F(VirtualRunTest, WhoIsInScopeButWasNotToldWhereIsNotDelivered) {
   EXPECT_LT(*few.truth.displayed_error_mm.rms, 1000.0) << "nobody is shown where he was before he was known";
 }
 
+/// In frames of their own a key is 15 bytes and a heartbeat 5 (docs/wire.md).
+TEST_F(VirtualRunTest, UnderNoneClientsSendKeysAndHeartbeatsAlone) {
+  settings_.wants_truth = true;
+  const Cell none = first_cell(), region = cells_of(experiment_).back();
+  const RunRecord record = run(none);
+  run(region);
+  const nlohmann::json bots = report(none, "bots"), others = report(region, "bots");
+  const double keys_bytes = 15.0 * bots["keys_sent"].get<double>(), heartbeats_max = 6.0 * experiment_.duration_s;
+  EXPECT_GE(bots["bytes_sent"].get<double>(), keys_bytes);
+  EXPECT_LE(bots["bytes_sent"].get<double>(), keys_bytes + 5.0 * heartbeats_max);
+  EXPECT_GT(others["bytes_sent"].get<double>(), 10.0 * bots["bytes_sent"].get<double>()) << "regions that follow the bats";
+  EXPECT_EQ(record.truth.filter_recall, 1.0) << "and yet all is let through to them";
+  EXPECT_EQ(record.truth.delivered_recall, 1.0);
+}
+
 TEST_F(VirtualRunTest, AnInterruptEndsItWithoutARecord) {
   const std::atomic<bool> is_interrupted = true;
   settings_.is_interrupted = &is_interrupted;

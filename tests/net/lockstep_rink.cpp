@@ -40,7 +40,8 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
 Client& LockstepRink::add_client(const std::string& name, bool only_watches) {
   auto player = std::make_unique<Player>(network_);
   const ClientSettings settings{.federation = "rink", .name = name,
-                                .view_fraction = settings_.view_fraction, .view_margin = settings_.view_margin, .extrapolates = settings_.extrapolates, .only_watches = only_watches};
+                                .view_fraction = settings_.view_fraction, .view_margin = settings_.view_margin,
+                                .declares_regions = settings_.declares_regions, .extrapolates = settings_.extrapolates, .only_watches = only_watches};
   player->client = std::make_unique<Client>(fom_, model_, settings);
   player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint, player->endpoint.connect("rti"));
   player->links.add(*player->link);

@@ -28,7 +28,7 @@ struct LockstepSettings {
   double rate_hz = 30.0;
   double view_fraction = 0.2;
   double view_margin = 0.0;
-  bool extrapolates = true;
+  bool extrapolates = true, declares_regions = true;
   ServerSettings server = {};
 };
 
