@@ -105,7 +105,7 @@ void add_options(CLI::App& app, Options& options) {
       ->check(game::number_from(0.0, game::view_margin_max))
       ->capture_default_str();
   app.add_flag("--regions,!--no-regions", options.declares_regions,
-               "whether bots declare their views as regions, or subscribe to everything: under none, which looks at no places, that is the same and costs nothing up")
+               "whether bots declare their views as regions, or subscribe to everything: under none, which looks at no places, that is the same for less")
       ->capture_default_str();
   app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates, "whether what is told positions alone (periodic) is believed ahead of the last by the velocity between the last two, or there")->capture_default_str();
   app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();

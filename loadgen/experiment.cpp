@@ -54,7 +54,8 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
                 [&result](double v) { return v == 0.0 || (v > 0.0 && v <= 1e12 && result.view_fractions.size() == 1); });
   reader.number("delay_ms", result.delay_ms, "a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 10'000.0; });
   reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"udp", TransportKind::udp}, {"shm", TransportKind::shared_memory}, {"virtual", TransportKind::virtual_time}});
-  reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}});
+  reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}, {"contact", Relevance::contact}});
+  reader.number("contact_s", result.contact_s, "a number above 0 and at most 10", [](double v) { return v > 0.0 && v <= 10.0; });
   if (reader.has("also_relevant")) reader.choose("also_relevant", result.also_relevant, {"team", "always"});
   if (reader.has("always")) reader.choose("always", result.always, game::relevant_kind_names);
   reader.choice<Design>("design", result.design, {{"matrix", Design::matrix}, {"one_at_a_time", Design::one_at_a_time}});

@@ -43,8 +43,9 @@ enum class TransportKind { tcp, udp, shared_memory, virtual_time };
 const char* to_string(TransportKind kind);  ///< as experiments name it
 
 /// What truth calls relevant to a player; h is half the view's side. `rectangle`: an entity whose box touches the square of half side h around the bat's true
-/// centre. `disc`: one whose centre is within h of it.
-enum class Relevance { rectangle, disc };
+/// centre. `disc`: one whose centre is within h of it. `contact`: whoever can touch the bat within `contact_s`, or a puck that can
+/// (loadgen/truth/encounters.h).
+enum class Relevance { rectangle, disc, contact };
 
 /// What a scheme or a client may be told beside its name: one value each in a cell, a list each in an experiment.
 struct Parameters {
@@ -98,6 +99,7 @@ struct Experiment {
   bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
   Relevance relevance = Relevance::rectangle;
+  double contact_s = 0.5;  ///< [s] of `contact`; above 0 to 10
   std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side; `always`, what is always relevant
   std::vector<std::string> always;         ///< kinds of bodies that are always relevant; none: as the scene has it (game::relevant_kinds_of)
   /// What ratios refer to; read from a file that compares neither: the first of its lists; empty beside a table of others that does not name them.

@@ -2,12 +2,14 @@
 #include "loadgen/truth/relevance.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 
 namespace rink::loadgen {
 
 double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent) {
+  assert(area.shape != RelevanceArea::Shape::contact);
   const Vector2 offset = centre - bat;
   if (area.shape == RelevanceArea::Shape::disc) return area.reach - offset.norm();
   return std::min(area.reach + half_extent.x() - std::abs(offset.x()), area.reach + half_extent.y() - std::abs(offset.y()));
@@ -20,6 +22,8 @@ bool is_relevant_anywhere(const RelevanceArea& area, game::Team own, physics::Bo
 std::string text_of(const RelevanceArea& area) {
   char text[96];
   if (area.shape == RelevanceArea::Shape::disc) std::snprintf(text, sizeof text, "disc of radius %.3g m around the bat, holding the entity's centre", area.reach);
+  else if (area.shape == RelevanceArea::Shape::contact)
+    std::snprintf(text, sizeof text, "whoever can touch the bat within %.3g s, or a puck that can", area.contact_s);
   else std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box", 2.0 * area.reach);
   std::string words = text;
   if (area.has_team) words += ", or a bat of the player's team";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -11,8 +12,13 @@
 
 namespace rink::loadgen {
 
-Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area)
-    : game_(game::chosen_scene(evidence.choice)), area_(area), surroundings_(area, game_.world().spec().field.length, game_.world().spec().field.width), rate_hz_(evidence.rate_hz) {
+Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area) : Replay(game::chosen_scene(evidence.choice), evidence, area) {}
+
+Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence, const RelevanceArea& area)
+    : game_(scene), area_(area), surroundings_(area, scene.world.field.length, scene.world.field.width),
+      puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction), bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
+      encounters_(scene.world.field.length, scene.world.field.width), rate_hz_(evidence.rate_hz) {
+  for (const game::Bat& bat : scene.bodies.bats) thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
   game_.record_events(true);
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
@@ -28,17 +34,54 @@ void Replay::advance(double instant_s) {
 
 void Replay::look_around() {
   centres_.assign(game_.world().body_count(), std::nullopt);
-  placed_.clear();
+  around_.assign(is_of_contact() ? centres_.size() : 0, 0.0);
+  placed_.clear(), reaching_.clear();
   for (const game::Entity& entity : game_.entities()) {
     const Vector2 centre = announced_centre(entity.id);
     centres_[entity.id.index] = centre;
-    placed_.push_back({entity.id.index, centre, entity.half_extent});
+    if (!is_of_contact()) {
+      placed_.push_back({entity.id.index, centre, entity.half_extent});
+      continue;
+    }
+    const bool is_disc = entity.kind != physics::BodyKind::bat;
+    around_[entity.id.index] = (is_disc ? entity.half_extent.x() : entity.half_extent.norm()) + reach(entity);
+    reaching_.push_back({entity.id.index, centre, around_[entity.id.index], entity.kind == physics::BodyKind::puck});
   }
-  surroundings_.build(placed_);
+  if (is_of_contact()) encounters_.build(reaching_);
+  else surroundings_.build(placed_);
 }
 
-void Replay::find(std::uint32_t own, std::vector<Relevant>& found) const {
-  surroundings_.find(centre(own), own, found);
+/// How far it can get by its own law; a puck that is not where it is announced gets nowhere yet.
+double Replay::reach(const game::Entity& entity) const {
+  if (entity.kind == physics::BodyKind::post || away_[entity.id.index]) return 0.0;
+  const physics::Motion motion = game_.world().motion(entity.id);
+  const bool is_adrift = motion.acceleration.isZero(0.0) && motion.drag.x() == motion.drag.y();  // nearly all are, and then it costs half
+  const double speed = is_adrift ? motion.velocity.norm() * std::exp(-motion.drag.x() * (game_.now() - motion.time)) : game_.velocity(entity.id).norm();
+  return entity.kind == physics::BodyKind::bat ? bat_reach_.of(speed, thrust_max_[*entity.player]) : puck_reach_.of(speed);
+}
+
+double Replay::passed(std::uint32_t own, const Relevant& now) {
+  Encounters::Way way{now.depth, std::nullopt};
+  if (is_of_contact() && std::isfinite(now.depth)) way = encounters_.way(own, now.entity);
+  const std::optional<double> before = depth_before(own, now.entity, way);
+  return before && *before < 0.0 ? *before / (*before - way.depth) : 1.0;
+}
+
+std::optional<double> Replay::depth_before(std::uint32_t own, std::uint32_t entity, const Encounters::Way& way) const {
+  if (!way.via) return depth_before(own, entity);
+  const auto first = depth_before(own, *way.via), second = depth_before(*way.via, entity);
+  return first && second ? std::optional(std::min(*first, *second)) : std::nullopt;
+}
+
+std::optional<double> Replay::depth_before(std::uint32_t a, std::uint32_t b) const {
+  if (a >= before_.size() || b >= before_.size() || !before_[a] || !before_[b]) return std::nullopt;
+  if (is_of_contact()) return around_before_[a] + around_before_[b] - (*before_[a] - *before_[b]).norm();
+  return depth(area_, *before_[a], *before_[b], half_extent(b));
+}
+
+void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
+  if (is_of_contact()) encounters_.find(own, found);
+  else surroundings_.find(centre(own), own, found);
   if (!area_.has_team && !area_.always) return;
   const game::Team team = game_.entity({own}).team;
   const std::size_t near = found.size();

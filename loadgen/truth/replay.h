@@ -9,6 +9,8 @@
 
 #include "game/control/game.h"
 #include "game/net/evidence.h"
+#include "loadgen/truth/encounters.h"
+#include "loadgen/truth/reach.h"
 #include "loadgen/truth/surroundings.h"
 
 namespace rink::loadgen {
@@ -27,15 +29,15 @@ class Replay {
   bool is_there(std::uint32_t entity) const { return entity < centres_.size() && centres_[entity].has_value(); }
   /// At the last look; `entity` must have been there.
   const Vector2& centre(std::uint32_t entity) const { return *centres_[entity]; }
-  /// Keeps this look for `centre_before`.
-  void remember() { before_ = centres_; }
-  /// At the look remembered, if it was there.
-  std::optional<Vector2> centre_before(std::uint32_t entity) const { return entity < before_.size() ? before_[entity] : std::nullopt; }
+  /// Keeps this look for `passed`.
+  void remember() { before_ = centres_, around_before_ = around_; }
+  /// Of what is relevant to the bat `own` now and was not at the look remembered: see Stays::Passed. By the way by which it is relevant now.
+  double passed(std::uint32_t own, const Relevant& now);
   /// The first tick that could tell of `entity` having been put back at its latest face-off, if there was one by the last look; from then on it counts there.
   std::optional<double> replaced_s(std::uint32_t entity) const { return entity < replaced_s_.size() ? replaced_s_[entity] : std::nullopt; }
   Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
   /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely deep.
-  void find(std::uint32_t own, std::vector<Relevant>& found) const;
+  void find(std::uint32_t own, std::vector<Relevant>& found);
 
   std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;
   std::optional<std::uint32_t> bat_of(std::uint32_t player) const;
@@ -49,16 +51,26 @@ class Replay {
     Vector2 centre;                 ///< where it left play
     std::optional<double> until_s;  ///< the first tick after it was put back, once it was
   };
+  Replay(const game::Scene& scene, const game::ServerEvidence& evidence, const RelevanceArea& area);
   Vector2 announced_centre(game::EntityId entity);
+  double reach(const game::Entity& entity) const;
+  std::optional<double> depth_before(std::uint32_t a, std::uint32_t b) const;
+  std::optional<double> depth_before(std::uint32_t own, std::uint32_t entity, const Encounters::Way& way) const;
+  bool is_of_contact() const { return area_.shape == RelevanceArea::Shape::contact; }
 
   game::Game game_;
   RelevanceArea area_;
   Surroundings surroundings_;
+  Reach puck_reach_, bat_reach_;
+  std::vector<double> thrust_max_;  ///< by player [m/s^2]
+  Encounters encounters_;
   double rate_hz_;
   std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play
   std::vector<std::optional<double>> replaced_s_;  ///< by entity
   std::unordered_map<std::uint32_t, std::uint32_t> entities_;  ///< by object
   std::vector<Placed> placed_;
+  std::vector<Reaching> reaching_;
+  std::vector<double> around_, around_before_;  ///< by entity; of `contact` alone
   std::vector<std::optional<Vector2>> centres_, before_;  ///< by entity
 };
 

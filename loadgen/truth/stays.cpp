@@ -5,14 +5,13 @@
 
 namespace rink::loadgen {
 
-void Stays::look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered, const DepthBefore& depth_before) {
+void Stays::look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered, const Passed& passed) {
   const bool is_first = ++looks_ == 1;
   for (const Relevant& each : relevant) {
     if (each.entity >= stays_.size()) stays_.resize(each.entity + 1);
     Stay& stay = stays_[each.entity];
     if (!stay.is_open) {
-      const std::optional<double> before = is_first ? std::nullopt : depth_before(each.entity);
-      const double part = before && *before < 0.0 ? *before / (*before - each.depth) : 1.0;
+      const double part = is_first ? 1.0 : passed(each);
       stay = {.begin_s = last_s_ + (instant_s - last_s_) * part, .seen = 0, .is_open = true, .is_settled = is_first};
       open_.push_back(each.entity);
     }

@@ -9,9 +9,11 @@ namespace {
 
 constexpr double cells_per_side_max = 256.0;
 
-std::uint32_t clamped(double cell, std::uint32_t count) { return static_cast<std::uint32_t>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1))); }
-
 }  // namespace
+
+std::uint32_t clamped_cell(double cell, std::uint32_t count) {
+  return static_cast<std::uint32_t>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
+}
 
 Surroundings::Surroundings(const RelevanceArea& area, double length, double width) : area_(area) {
   cell_ = std::max({0.5 * area.reach, length / cells_per_side_max, width / cells_per_side_max});
@@ -19,8 +21,8 @@ Surroundings::Surroundings(const RelevanceArea& area, double length, double widt
   rows_ = std::max(1u, static_cast<std::uint32_t>(std::ceil(width / cell_)));
 }
 
-std::uint32_t Surroundings::column(double x) const { return clamped(x / cell_, columns_); }
-std::uint32_t Surroundings::row(double y) const { return clamped(y / cell_, rows_); }
+std::uint32_t Surroundings::column(double x) const { return clamped_cell(x / cell_, columns_); }
+std::uint32_t Surroundings::row(double y) const { return clamped_cell(y / cell_, rows_); }
 
 void Surroundings::build(std::span<const Placed> placed) {
   begins_.assign(std::size_t{columns_} * rows_ + 1, 0);

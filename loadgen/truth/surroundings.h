@@ -17,9 +17,12 @@ struct Placed {
 
 struct Relevant {
   std::uint32_t entity = 0;
-  double depth = 0.0;  ///< see depth(); 0 or more
+  double depth = 0.0;  ///< see depth(); 0 or more, and 0 of all that Encounters finds
   friend bool operator==(const Relevant&, const Relevant&) = default;
 };
+
+/// The cell of `count` in a row in which `cell`, a distance in cells, is; the first or last for what is outside.
+std::uint32_t clamped_cell(double cell, std::uint32_t count);
 
 /// Binned by counting sort into cells of the area's reach. Placed entities lie anywhere; those outside the world share its rim cells.
 class Surroundings {

@@ -94,15 +94,9 @@ class ReplayJudgement {
       if (!is_present(player)) continue;
       replay_.find(*player.bat, relevant_);
       player.delivered.advance(instant_s);
-      player.stays.look(instant_s, relevant_, player.delivered, [&](std::uint32_t entity) { return depth_before(*player.bat, entity); });
+      player.stays.look(instant_s, relevant_, player.delivered, [&](const Relevant& now) { return replay_.passed(*player.bat, now); });
     }
     replay_.remember();
-  }
-
-  std::optional<double> depth_before(std::uint32_t bat, std::uint32_t entity) const {
-    const auto from = replay_.centre_before(bat), at = replay_.centre_before(entity);
-    if (!from || !at) return std::nullopt;
-    return depth(area_, *from, *at, replay_.half_extent(entity));
   }
 
   void judge_decision(const game::ServerEvidence::Decision& decision) {
@@ -254,7 +248,9 @@ TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bo
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
   const physics::Field& field = scene.world.field;
   const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
-  RelevanceArea area{.shape = experiment.relevance == Relevance::rectangle ? RelevanceArea::Shape::square : RelevanceArea::Shape::disc, .reach = reach};
+  using Shape = RelevanceArea::Shape;
+  const Shape shape = experiment.relevance == Relevance::rectangle ? Shape::square : experiment.relevance == Relevance::disc ? Shape::disc : Shape::contact;
+  RelevanceArea area{.shape = shape, .reach = reach, .contact_s = experiment.contact_s};
   for (const std::string& more : experiment.also_relevant) {
     if (more == "team") area.has_team = true;
     else area.always = game::relevant_kinds_of(scene, experiment.always);

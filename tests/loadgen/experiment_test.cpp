@@ -79,7 +79,9 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
   EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, virtual"));
   EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
-  EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc"));
+  EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc, contact"));
+  for (const char* seconds : {"0", "10.5", "-1"})
+    EXPECT_THAT(complaint_about(minimal + "contact_s = " + seconds), HasSubstr("above 0 and at most 10"));
   EXPECT_THAT(complaint_about(minimal + "also_relevant = 'mates'"), HasSubstr("team, always"));
   EXPECT_THAT(complaint_about(minimal + "schemes = 'always or aura'\nalways = ['bat', 'pucks']"), AllOf(StartsWith("dir/x.toml:4: always = 'pucks'"), HasSubstr("puck, bat, post")));
   EXPECT_THAT(complaint_about(minimal + "always = ['bat', 'puck']"), HasSubstr("always = bat, puck changes nothing: neither schemes nor also_relevant name always"));

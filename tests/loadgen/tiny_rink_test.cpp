@@ -81,7 +81,7 @@ material = "ice"
     for (const std::uint32_t body : bodies) server_.in_scope.push_back(100 + body);
     server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
   }
-  TruthFigures judged() const { return truth_of(server_, bots_, {RelevanceArea::Shape::square, view_half_side}); }
+  TruthFigures judged(const RelevanceArea& area = {RelevanceArea::Shape::square, view_half_side}) const { return truth_of(server_, bots_, area); }
 
   test::TemporaryFolder folder_{"truth"};
   std::string scene_file_;
@@ -107,6 +107,23 @@ TEST_F(TinyRink, LateEntriesAndChurnFollowFromTheTimesOfArrival) {
   EXPECT_NEAR(*truth.late_entry_ms.max, 350.0, 1e-6);
   EXPECT_DOUBLE_EQ(*truth.churn_per_client_per_s, 2.0 / 4.0);
   EXPECT_DOUBLE_EQ(*truth.flapping_fraction, 0.0);
+}
+
+/// Within T = 0.2 s the bat, by two keys of 10 m/s^2, gets 14.14 T^2/2 = 0.283 m far, the puck 0.2 m: with the radii of their discs, 0.141 and 0.1 m,
+/// 0.724 m in all, which is their distance at 2 s -+ sqrt(0.724^2 - 0.5^2) s. The still one is too far for both.
+TEST_F(TinyRink, ByContactTheFlyingPuckIsRelevantWhileItAndTheBatCanMeet) {
+  const RelevanceArea contact{.shape = RelevanceArea::Shape::contact, .contact_s = 0.2};
+  const double apart = 0.1 * std::sqrt(2.0) + 0.1 + 10.0 * std::sqrt(2.0) * 0.02 + 0.2, half_s = std::sqrt(apart * apart - 0.25);
+  bots_.bots[0].changes.push_back({1.75, 100 + flying, true});
+  decide(2.0 - half_s - 1e-3, {bat, still});
+  decide(2.0 - half_s + 1e-3, {bat, flying});
+  decide(2.0 + half_s - 1e-3, {bat, still});
+  decide(2.0 + half_s + 1e-3, {bat, flying});
+  const TruthFigures truth = judged(contact);
+  EXPECT_DOUBLE_EQ(*truth.filter_precision, 1.0 / 4.0);
+  EXPECT_DOUBLE_EQ(*truth.filter_recall, 1.0 / 2.0);
+  EXPECT_NEAR(*truth.late_entry_ms.max, 1e3 * (1.75 - (2.0 - half_s)), 0.01);
+  EXPECT_EQ(truth.relevance, "whoever can touch the bat within 0.2 s, or a puck that can");
 }
 
 /// It leaves for half a second, then for longer than a second: one flap in three entries.

@@ -154,7 +154,10 @@ struct Approach {
       delivered.advance(now);
       std::vector<Relevant> relevant;
       if (depth >= 0.0) relevant.push_back({5, depth});
-      stays.look(now, relevant, delivered, [&](std::uint32_t) { return now - look_s - 1.0; });
+      stays.look(now, relevant, delivered, [&](const Relevant& each) {
+        const double before = now - look_s - 1.0;
+        return before / (before - each.depth);
+      });
     }
     stays.end();
   }
@@ -185,7 +188,7 @@ TEST(Stays, AnEntityThatNeverCameIsLateForItsWholeStay) {
 
 TEST(Stays, WhatWasThereAtTheFirstLookHasNoKnownBeginning) {
   Stays stays;
-  stays.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}), [](std::uint32_t) { return std::nullopt; });
+  stays.look(0.0, std::vector<Relevant>{{1, 0.5}}, ScopeHistory({}), [](const Relevant&) { return 1.0; });
   stays.end();
   EXPECT_TRUE(stays.lateness_s().empty());
 }

@@ -207,6 +207,23 @@ TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionT
   EXPECT_FALSE(own.filter_precision) << "his own bat is in no count, and nothing else is chosen";
 }
 
+TEST_F(VirtualRunTest, ByContactLessOfWhatIsRelevantIsInTheViewTheFartherOneLooksAhead) {
+  experiment_.clients = {12};
+  experiment_.relevance = Relevance::contact;
+  settings_.wants_truth = true;
+  const Cell none = first_cell(), region = cells_of(experiment_).back();
+  double recall_before = 1.01, precision_before = 0.0;
+  for (const double contact_s : {0.1, 0.3, 0.9}) {
+    experiment_.contact_s = contact_s;
+    const TruthFigures truth = run(region).truth;
+    EXPECT_THAT(truth.relevance, HasSubstr("can touch the bat within 0." + std::to_string(std::lround(10.0 * contact_s)) + " s"));
+    EXPECT_LT(truth.filter_recall.value_or(2.0), recall_before);
+    EXPECT_GE(truth.filter_precision.value_or(-1.0), precision_before);
+    recall_before = truth.filter_recall.value_or(0.0), precision_before = truth.filter_precision.value_or(2.0);
+    EXPECT_EQ(run(none).truth.filter_recall, 1.0);
+  }
+}
+
 /// Every entry and every exit that the server said reached a watched bot, without delay, and is in its evidence.
 TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
   experiment_.schemes = {"region"};
