@@ -211,6 +211,7 @@ TEST_F(VirtualRunTest, ByContactLessOfWhatIsRelevantIsInTheViewTheFartherOneLook
   experiment_.clients = {12};
   experiment_.relevance = Relevance::contact;
   settings_.wants_truth = true;
+  experiment_.view_margins = {0.0};
   const Cell none = first_cell(), region = cells_of(experiment_).back();
   double recall_before = 1.01, precision_before = 0.0;
   for (const double contact_s : {0.1, 0.3, 0.9}) {
@@ -276,6 +277,7 @@ TEST_F(VirtualRunTest, WhoIsInScopeButWasNotToldWhereIsNotDelivered) {
 /// In frames of their own a key is 15 bytes and a heartbeat 5 (docs/wire.md).
 TEST_F(VirtualRunTest, UnderNoneClientsSendKeysAndHeartbeatsAlone) {
   settings_.wants_truth = true;
+  experiment_.view_margins = {0.0};
   const Cell none = first_cell(), region = cells_of(experiment_).back();
   const RunRecord record = run(none);
   run(region);
