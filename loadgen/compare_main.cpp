@@ -270,8 +270,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
     const Baseline baseline = experiment.baseline();
     const std::vector<RunRecord> shown = without_curves(experiment, outcome.runs);
     std::cout << (options.saturate.is_wanted ? table_of(found, options.saturate.level) : table_of(shown, isatty(STDOUT_FILENO) != 0, baseline)) << std::flush;
-    if (options.saturate.is_wanted) std::cout << capacity_text(growths_of(shown)) << std::flush;
-    else
+    if (!options.saturate.is_wanted)
       std::cout << equal_error_table(equal_errors_of(experiment, outcome.runs)) << modes_table(shown) << growth_table(growths_of(shown)) << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {

@@ -141,8 +141,8 @@ std::string to_csv(std::span<const Growth> growths) {
   return csv;
 }
 
-std::string capacity_text(std::span<const Growth> growths) {
-  std::string text;
+std::vector<Capacity> capacities_of(std::span<const Growth> growths) {
+  std::vector<Capacity> capacities;
   for (const Growth& growth : growths) {
     const bool is_p99 = growth.figure == tick_p99;
     if (growth.factor != std::string_view("clients") || (!is_p99 && growth.figure != tick_p90)) continue;
@@ -150,12 +150,20 @@ std::string capacity_text(std::span<const Growth> growths) {
     if (!is_p99 && std::ranges::any_of(growths, is_better_known)) continue;
     std::optional<double> clients = growth.line.reaches(growth.period_us);
     if (!growth.is_line_better) clients = growth.fit.exponent > 0.0 ? std::optional(std::pow(growth.period_us / growth.fit.factor, 1.0 / growth.fit.exponent)) : std::nullopt;
+    capacities.push_back({growth, is_p99 ? 0.99 : 0.9, clients ? std::optional(std::floor(*clients)) : std::nullopt});
+  }
+  return capacities;
+}
+
+std::string capacity_text(std::span<const Growth> growths) {
+  std::string text;
+  for (const auto& [growth, fraction, clients] : capacities_of(growths)) {
     std::array<char, 200> law, line;
     if (growth.is_line_better) std::snprintf(law.data(), law.size(), "%.4g + %.4g n us", growth.line.constant, growth.line.slope);
     else std::snprintf(law.data(), law.size(), "%.4g n^%.3g us", growth.fit.factor, growth.fit.exponent);
-    if (clients) std::snprintf(line.data(), line.size(), "this server holds %.0f clients", std::floor(*clients));
+    if (clients) std::snprintf(line.data(), line.size(), "this server holds %.0f clients", *clients);
     else std::snprintf(line.data(), line.size(), "no number of clients fills a tick");
-    text += "  " + growth.scheme + ", " + growth.policy + ": " + (is_p99 ? "99" : "90") + " % of the ticks end within " + law.data() + " of n clients: " + line.data() +
+    text += "  " + growth.scheme + ", " + growth.policy + ": " + (fraction == 0.99 ? "99" : "90") + " % of the ticks end within " + law.data() + " of n clients: " + line.data() +
             (clients && *clients > growth.most ? ", by extrapolation from " + six_digits(growth.most) : "") + "\n";
   }
   return text.empty() ? text : "clients by the better of a + b n and a n^b:\n" + text;

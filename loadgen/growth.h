@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,8 +41,17 @@ std::vector<Growth> growths_of(std::span<const RunRecord> runs);
 /// As CSV (RFC 4180), a line each; what is absent is empty.
 std::string to_csv(std::span<const Growth> growths);
 
-/// How many clients a server holds by the better of the two fits: as many as let 99 % of its ticks end within their period, or 90 % where too few ticks ran for more.
-/// A line for each scheme and policy whose clients grow and of which such a percentile is known; empty if there is none. Beyond what ran it is an extrapolation, and says so.
+/// How many clients a server holds by the better of the two fits.
+struct Capacity {
+  Growth growth;                  ///< of the tick's percentile over clients
+  double fraction = 0.99;         ///< of the ticks that end within their period: .9 where too few ran for .99
+  std::optional<double> clients;  ///< whole; nothing if no number of clients fills a tick
+};
+
+/// One for each scheme and policy whose clients grow and of which such a percentile is known.
+std::vector<Capacity> capacities_of(std::span<const Growth> growths);
+
+/// The same in words, a line each; empty if there is none. Beyond what ran it is an extrapolation, and says so.
 std::string capacity_text(std::span<const Growth> growths);
 
 /// As text for a terminal, at most 100 columns; empty if there is none.

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
+
+#include "loadgen/growth.h"
 
 namespace rink::loadgen {
 namespace {
@@ -37,6 +40,8 @@ class SaturationSearch {
       if (record.cell.clients == found_.search.held && judgement.verdict == Verdict::holds) found_.edge = record;
       if (record.cell.clients == found_.search.failed && judgement.verdict != Verdict::holds) found_.why = judgement.why;
     }
+    foretell();
+    foretell();
     return std::move(found_);
   }
 
@@ -54,6 +59,16 @@ class SaturationSearch {
          << (before != earlier_.end() ? " (measured before)" : "") << "\n" << std::flush;
     records_.push_back(*record);
     return judgement.verdict;
+  }
+
+  /// The edge itself and what lies beyond it are left out: a fit through them would know the answer.
+  void foretell() {
+    std::vector<RunRecord> below;
+    std::ranges::copy_if(records_, std::back_inserter(below), [this](const RunRecord& record) { return record.cell.clients < found_.search.held.value_or(0); });
+    for (const Capacity& capacity : capacities_of(growths_of(below))) {
+      found_.foretold = capacity.clients;
+      found_.foretold_from = static_cast<std::uint32_t>(capacity.growth.most);
+    }
   }
 
   const ServiceLevel& level_;

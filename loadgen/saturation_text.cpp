@@ -48,7 +48,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string shortened(const std::string& text) {
-  constexpr std::size_t width = 40;
+  constexpr std::size_t width = 120;
   return text.size() <= width ? text : text.substr(0, width - 3) + "...";
 }
 
@@ -73,18 +73,25 @@ std::string held_text(const Search& search) {
   return held;
 }
 
+std::string foretold_text(const Saturation& saturation) {
+  if (!saturation.foretold) return "-";
+  std::array<char, 48> text;
+  std::snprintf(text.data(), text.size(), "%.0f (%u)", *saturation.foretold, saturation.foretold_from);
+  return text.data();
+}
+
 std::string to_csv(std::span<const Saturation> found) {
   std::string csv = "mode,scheme,policy,pucks,server_cores";
   for (const ParameterKind& kind : parameter_kinds()) csv += std::string(",") + kind.key;
-  csv += ",end,held_clients,failed_clients,why,probes";
+  csv += ",end,held_clients,failed_clients,foretold_clients,foretold_from_clients,why,probes";
   for (const Figure& figure : edge_figures) csv += std::string(",") + figure.name;
   csv += "\n";
   for (const Saturation& saturation : found) {
     const Cell& cell = saturation.cell;
     csv += cell.mode + "," + cell.scheme + "," + cell.policy + "," + std::to_string(cell.pucks) + "," + std::to_string(cell.server_cores);
     for (const ParameterKind& kind : parameter_kinds()) csv += "," + csv_number(kind.of(cell.parameters));
-    csv += std::string(",") + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," +
-           quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
+    csv += std::string(",") + name_of(saturation.search.end) + "," + whole(saturation.search.held) + "," + whole(saturation.search.failed) + "," + csv_number(saturation.foretold) + "," +
+           (saturation.foretold ? std::to_string(saturation.foretold_from) : "") + "," + quoted(saturation.why) + "," + std::to_string(saturation.search.trials.size());
     for (const Figure& figure : edge_figures) csv += "," + csv_number(at_edge(saturation, figure));
     csv += "\n";
   }
@@ -105,7 +112,7 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
     const Cell& cell = saturation.cell;
     Json search{{"mode", cell.mode}, {"scheme", cell.scheme}, {"policy", cell.policy}, {"pucks", cell.pucks}, {"server_cores", cell.server_cores}};
     for (const ParameterKind& kind : parameter_kinds()) search[kind.key] = kind.of(cell.parameters);
-    search.update(Json{{"end", name_of(saturation.search.end)}, {"held_clients", or_null(saturation.search.held)}, {"failed_clients", or_null(saturation.search.failed)},
+    search.update(Json{{"end", name_of(saturation.search.end)}, {"held_clients", or_null(saturation.search.held)}, {"failed_clients", or_null(saturation.search.failed)}, {"foretold_clients", or_null(saturation.foretold)},
                        {"why", saturation.why}, {"edge", edge}, {"probes", probes}});
     searches.push_back(std::move(search));
   }
@@ -118,16 +125,19 @@ std::string table_of(std::span<const Saturation> found, const ServiceLevel& leve
   std::array<char, 256> line;
   std::snprintf(line.data(), line.size(), "largest number of clients with %g %% of ticks on time and p99 update age below %g ms\n", 100.0 * level.on_time_fraction_min, level.age_p99_ms_max);
   std::string text = line.data();
-  std::snprintf(line.data(), line.size(), "%-12s %-13s %5s %13s %6s %7s %7s %7s %9s  %s\n", "scheme", "policy", "cores", "held", "failed", "physics", "filter", "send", "down kB/s", "why it failed");
+  std::snprintf(line.data(), line.size(), "%-12s %-13s %5s %13s %6s %15s %7s %7s %7s %9s\n", "scheme", "policy", "cores", "held", "failed", "foretold", "physics", "filter", "send", "down kB/s");
   text += line.data();
   for (const Saturation& saturation : found) {
     const auto part = [&saturation](std::size_t figure) { return thousand(at_edge(saturation, edge_figures[figure])); };
-    std::snprintf(line.data(), line.size(), "%-12.12s %-13.13s %5u %13s %6s %7s %7s %7s %9s  %s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
-                  saturation.cell.server_cores, held_text(saturation.search).c_str(), whole(saturation.search.failed).c_str(), part(2).c_str(), part(3).c_str(),
-                  part(4).c_str(), part(5).c_str(), shortened(saturation.why).c_str());
+    std::snprintf(line.data(), line.size(), "%-12.12s %-13.13s %5u %13s %6s %15s %7s %7s %7s %9s\n", saturation.cell.scheme.c_str(), saturation.cell.policy.c_str(),
+                  saturation.cell.server_cores, held_text(saturation.search).c_str(), whole(saturation.search.failed).c_str(), foretold_text(saturation).c_str(), part(2).c_str(), part(3).c_str(),
+                  part(4).c_str(), part(5).c_str());
     text += line.data();
   }
-  return text + "physics, filter, send: ms per tick at the edge; down: payload per client at the edge\n";
+  for (const Saturation& saturation : found)
+    if (!saturation.why.empty()) text += shortened(whole(saturation.search.failed) + " of " + saturation.cell.scheme + ", " + saturation.cell.policy + " do not hold: " + saturation.why) + "\n";
+  return text + "physics, filter, send: ms per tick at the edge; down: payload per client at the edge; foretold: by the cost of the\n"
+                "probes of fewer clients (up to the number in brackets), as the better of a + b n and a n^b; docs/scaling.md\n";
 }
 
 }  // namespace rink::loadgen

@@ -190,6 +190,7 @@ class SaturateTest : public testing::Test {
       RunRecord record = record_with(cell.clients <= (cell.scheme == "none" ? 150 : 5'000) ? 1.0 : 0.75, 20.0, 30.0);
       record.cell = cell;
       record.send_us_per_tick = 10.0 * cell.clients;
+      record.tick_us.p99 = 500.0 + 6.0 * cell.clients;
       ran_.push_back(record);
       return record;
     };
@@ -220,8 +221,16 @@ TEST_F(SaturateTest, EachSchemeIsSearchedBetweenTheLeastAndTheLargestNumberOfCli
   for (const RunRecord& run : ran_) EXPECT_LE(run.cell.clients, 2'000u);
   EXPECT_THAT(said_.str(), HasSubstr("none, periodic: 100 clients hold: 100 % of ticks on time, age p99 20 ms"));
   EXPECT_THAT(table_of(found, level_), HasSubstr("at least 2000"));
-  EXPECT_THAT(to_csv(found), HasSubstr("client-server,region,periodic,0,1,0.05,0.3,0,0,30,0.005,1,most_holds,2000,,\"\","));
+  EXPECT_THAT(to_csv(found), HasSubstr("client-server,region,periodic,0,1,0.05,0.3,0,0,30,0.005,1,most_holds,2000,,5472,1600,\"\","));
   EXPECT_THAT(to_json_text(found, level_, {}), HasSubstr("\"held_clients\": 2000"));
+}
+
+TEST_F(SaturateTest, IsForetoldByTheCostOfFewerClients) {
+  const auto found = search();
+  EXPECT_EQ(found[0].foretold, std::nullopt) << "of fewer clients than held only 100 ran";
+  EXPECT_EQ(found[1].foretold_from, 1'600u) << "2,000 held, and are not asked what they hold";
+  EXPECT_EQ(found[1].foretold, std::floor((1e6 / 30.0 - 500.0) / 6.0)) << "99 % of the ticks end within 500 + 6 n us";
+  EXPECT_THAT(table_of(found, level_), HasSubstr("5472 (1600)"));
 }
 
 TEST_F(SaturateTest, RepetitionsHaveSeedsOfTheirOwn) {
