@@ -36,6 +36,14 @@ TEST_F(BenchCommand, RunsWhatTheFilterChoosesAndWritesItAsJson) {
   EXPECT_THAT(printed_, HasSubstr("physics/collision/does_disc_overlap_box"));
 }
 
+TEST_F(BenchCommand, SetsTheCountersThatAreAskedForInColumns) {
+  const std::string chosen = "--filter '^physics/collision/does_disc_overlap_box/' --benchmark_min_time=0.001 --columns ";
+  ASSERT_EQ(bench(chosen + "time,error"), 0) << said_;
+  EXPECT_THAT(printed_, testing::MatchesRegex("benchmark +time +error\nphysics/collision/does_disc_overlap_box +[0-9.e+]+ ns +[0-9.e-]+\n"));
+  EXPECT_EQ(bench(chosen + "error,harbours"), 2);
+  EXPECT_THAT(said_, HasSubstr("--columns: none of these benchmarks counts harbours"));
+}
+
 TEST_F(BenchCommand, ListsWhatItHas) {
   ASSERT_EQ(bench("--benchmark_list_tests"), 0) << said_;
   for (const char* name : {"im/", "physics/", "rti/", "play/", "view/"})
@@ -47,9 +55,9 @@ TEST_F(BenchCommand, FailsWhereTheFilterChoosesNothing) {
 }
 
 TEST_F(BenchCommand, RefusesAFlagWithoutItsValueAndOneThatItDoesNotKnow) {
-  for (const char* flag : {"--filter", "--json"}) {
+  for (const char* flag : {"--filter", "--json", "--columns"}) {
     EXPECT_EQ(bench(flag), 2) << flag;
-    EXPECT_THAT(said_, HasSubstr("--filter and --json need a value"));
+    EXPECT_THAT(said_, HasSubstr("--filter, --json and --columns need a value"));
   }
   EXPECT_EQ(bench("--fliter im"), 2);
   EXPECT_THAT(said_, HasSubstr("--fliter"));
