@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "game/version/version.h"
+#include "loadgen/machine.h"
 #include "loadgen/process.h"
 
 namespace rink::loadgen {
@@ -84,6 +86,9 @@ std::string calibration_text(const Histogram& wake_ups) {
   return text;
 }
 
+constexpr std::array packages_that_matter{"g++",  "libc6", "libasio-dev", "libeigen3-dev", "libspdlog-dev", "libtomlplusplus-dev", "libpugixml-dev", "libsodium-dev", "libcli11-dev",
+                                          "nlohmann-json3-dev"};
+
 void add_program_and_machine(Provenance& provenance) {
   const std::vector<std::pair<std::string, std::string>> facts{
       {"commit", game::built_commit()},
@@ -94,7 +99,10 @@ void add_program_and_machine(Provenance& provenance) {
       {"processor", value_in("/proc/cpuinfo", "model name")},
       {"cores", std::to_string(allowed_processors().size()) + " allowed of " + std::to_string(std::thread::hardware_concurrency())},
       {"memory", value_in("/proc/meminfo", "MemTotal")},
-      {"kernel", kernel()}};
+      {"governor", governor("/")},
+      {"virtualisation", virtualisation("/")},
+      {"kernel", kernel()},
+      {"packages", packages("/", packages_that_matter)}};
   provenance.facts.insert(provenance.facts.end(), facts.begin(), facts.end());
 }
 
@@ -114,6 +122,7 @@ Histogram wake_up_lateness() {
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups) {
   Provenance provenance{{{"taken", now_utc()}, {"command", command_text(command_line)}}};
   add_program_and_machine(provenance);
+  provenance.facts.push_back({"load", load("/")});
   provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
   return provenance;
 }

@@ -80,7 +80,7 @@ TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   EXPECT_THAT(content("out/comparisons.csv"), HasSubstr("cannot be told from one replication"));
   EXPECT_THAT(content("out/tidy.csv"), HasSubstr("\n,client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,1,true,ticks,1,"));
   for (const char* file : {"out/runs.jsonl", "out/summary.csv", "out/comparisons.csv", "out/tidy.csv", "out/data-dictionary.csv", "out/report.html", "out/provenance.json"})
-    for (const char* fact : {"commit", "compiler", "flags", "processor", "cores", "kernel", "command", "timer wake-up"}) EXPECT_THAT(content(file), HasSubstr(fact)) << file;
+    for (const char* fact : {"commit", "compiler", "flags", "processor", "cores", "governor", "virtualisation", "kernel", "packages", "load", "command", "timer wake-up"}) EXPECT_THAT(content(file), HasSubstr(fact)) << file;
   EXPECT_THAT(content("out/report.html"), HasSubstr("</html>"));
   EXPECT_THAT(content("out/provenance.json"), HasSubstr("kernel"));
   EXPECT_THAT(content("out/keys/seed1.keys"), HasSubstr("rink-keys 1"));
