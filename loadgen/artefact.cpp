@@ -87,7 +87,7 @@ void write_manifest(const ResultsDirectory& results) {
     const Seal seal = seal_of(results.path() / name);
     files[name.generic_string()] = {{"bytes", seal.bytes}, {"fnv1a", seal.hash}};
   }
-  const nlohmann::ordered_json manifest{{"schema", report_schema}, {"version", game::built_version()}, {"files", files}};
+  const nlohmann::ordered_json manifest{{"schema", game::report_schema}, {"version", game::built_version()}, {"files", files}};
   results.write(manifest_name, manifest.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
@@ -96,9 +96,9 @@ void check_manifest(const std::filesystem::path& folder) {
   const auto manifest = nlohmann::json::parse(text_in(folder / manifest_name), nullptr, false);
   if (!manifest.is_object() || !manifest.contains("schema") || !manifest["schema"].is_number_integer() || !manifest.contains("files") || !manifest["files"].is_object())
     throw ReportFolderError(name + ": not a manifest of a report folder");
-  if (manifest["schema"] != report_schema)
+  if (manifest["schema"] != game::report_schema)
     throw ReportFolderError(name + ": of schema " + manifest["schema"].dump() + (manifest.contains("version") ? ", written by version " + manifest["version"].dump() : "") + "; this program reads schema " +
-                            std::to_string(report_schema));
+                            std::to_string(game::report_schema));
   for (const auto& [file, sealed] : manifest["files"].items()) {
     if (!sealed.is_object() || !sealed.contains("bytes") || !sealed["bytes"].is_number_unsigned() || !sealed.contains("fnv1a") || !sealed["fnv1a"].is_string())
       throw ReportFolderError(name + ": " + file + " has neither length nor hash");

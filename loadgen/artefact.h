@@ -14,9 +14,6 @@
 
 namespace rink::loadgen {
 
-/// Of the folder's files; raised when one of them changes its form so that older programs misread it.
-inline constexpr int report_schema = 1;
-
 /// A report folder that cannot be repeated; the message names the file and what is wrong with it.
 class ReportFolderError : public std::runtime_error {
  public:

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "game/version/version.h"
+
 namespace rink::loadgen {
 
 using Json = nlohmann::ordered_json;
@@ -11,7 +13,8 @@ using Json = nlohmann::ordered_json;
 Json bots_report(const BotCrowd& crowd, const std::string& why_invalid) {
   const Measurements& measured = crowd.measurements();
   const CrowdTraffic traffic = crowd.traffic(), total = crowd.total_traffic();
-  return {{"clients", crowd.bot_count()},
+  return {{"schema", game::report_schema},
+          {"clients", crowd.bot_count()},
           {"measured_s", crowd.measured_s()},
           {"bytes_received", traffic.bytes_received},
           {"bytes_sent", traffic.bytes_sent},

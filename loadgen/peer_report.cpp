@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "game/version/version.h"
 #include "loadgen/peer_station.h"
 
 namespace rink::loadgen {
@@ -61,7 +62,8 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
   const auto of = [&](Traffic about) { return measured.by_subject[static_cast<std::size_t>(about)]; };
   std::uint64_t busiest = 0;
   for (std::size_t k = 0; k < measured.sent.size(); ++k) busiest = std::max(busiest, measured.sent[k] + measured.received[k]);
-  Json report{{"mode", cell.mode},
+  Json report{{"schema", game::report_schema},
+          {"mode", cell.mode},
           {"scheme", cell.scheme},
           {"policy", cell.policy},
           {"clients", cell.clients},

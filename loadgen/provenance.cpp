@@ -120,7 +120,7 @@ Histogram wake_up_lateness() {
 }
 
 Provenance provenance_of(const std::vector<std::string>& command_line, const Histogram& wake_ups) {
-  Provenance provenance{{{"taken", now_utc()}, {"command", command_text(command_line)}}};
+  Provenance provenance{{{"schema", std::to_string(game::report_schema)}, {"taken", now_utc()}, {"command", command_text(command_line)}}};
   add_program_and_machine(provenance);
   provenance.facts.push_back({"load", load("/")});
   provenance.facts.push_back({"timer wake-up", calibration_text(wake_ups)});
@@ -134,7 +134,7 @@ Provenance reproducible_provenance_of(const std::vector<std::string>& command_li
     if (word == "--out") ++i;
     else if (!word.starts_with("--out=") && word != "--force" && word != "--resume") kept.push_back(i == 0 ? std::filesystem::path(word).filename().string() : word);
   }
-  Provenance provenance{{{"command", command_text(kept)}}};
+  Provenance provenance{{{"schema", std::to_string(game::report_schema)}, {"command", command_text(kept)}}};
   add_program_and_machine(provenance);
   return provenance;
 }

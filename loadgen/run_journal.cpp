@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "game/model/byte_hash.h"
+#include "game/version/version.h"
 #include "loadgen/results.h"
 #include "loadgen/run_fields.h"
 
@@ -128,7 +129,7 @@ std::string identity_of(const Experiment& experiment) {
 nlohmann::ordered_json to_json(const JournalHead& head) {
   nlohmann::ordered_json provenance = nlohmann::ordered_json::object();
   for (const auto& [name, fact] : head.provenance) provenance[name] = fact;
-  return {{"provenance", provenance}, {"experiment", head.experiment}, {"commit", head.commit}};
+  return {{"schema", game::report_schema}, {"provenance", provenance}, {"experiment", head.experiment}, {"commit", head.commit}};
 }
 
 Journal read_journal(const std::filesystem::path& file) {
@@ -142,7 +143,11 @@ Journal read_journal(const std::filesystem::path& file) {
   std::size_t number = 1;
   for (std::size_t end; (end = text.find('\n', journal.whole_bytes)) != std::string::npos; journal.whole_bytes = end + 1, ++number) {
     const auto line = nlohmann::json::parse(text.begin() + static_cast<std::ptrdiff_t>(journal.whole_bytes), text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
-    if (number == 1 && (journal.head = head_of(line))) continue;
+    if (number == 1 && (journal.head = head_of(line))) {
+      if (const std::string schema = line.contains("schema") ? line["schema"].dump() : "none"; schema != std::to_string(game::report_schema))
+        throw OutputError(file.string() + ":1: schema " + schema + "; this version reads schema " + std::to_string(game::report_schema));
+      continue;
+    }
     std::string complaint = "not JSON";
     const auto run = line.is_discarded() ? std::nullopt : run_record_from_json(line, complaint);
     if (!run) throw OutputError(file.string() + ":" + std::to_string(number) + ": " + complaint + "; expected a run as rink compare writes it");

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "game/version/version.h"
 #include "loadgen/csv_number.h"
 #include "loadgen/parameter.h"
 #include "loadgen/saturate_command.h"
@@ -116,7 +117,7 @@ std::string to_json_text(std::span<const Saturation> found, const ServiceLevel& 
                        {"why", saturation.why}, {"edge", edge}, {"probes", probes}});
     searches.push_back(std::move(search));
   }
-  const Json whole_text = {{"service_level", {{"on_time_fraction_min", level.on_time_fraction_min}, {"age_p99_ms_max", level.age_p99_ms_max}}},
+  const Json whole_text = {{"schema", game::report_schema}, {"service_level", {{"on_time_fraction_min", level.on_time_fraction_min}, {"age_p99_ms_max", level.age_p99_ms_max}}},
                            {"limits", {{"first", limits.first}, {"most", limits.most}, {"resolution", limits.resolution}}}, {"searches", searches}};
   return whole_text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "game/version/version.h"
+
 namespace rink::game {
 
 using Json = nlohmann::ordered_json;
@@ -24,7 +26,8 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
   const Server& server = serving.server();
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016" PRIx64, server.game().hash());
-  Json report{{"entities", server.game().entities().size()},
+  Json report{{"schema", report_schema},
+              {"entities", server.game().entities().size()},
               {"state_hash", hash},
               {"bytes_sent", last.transport.bytes_sent - first.transport.bytes_sent},
               {"bytes_received", last.transport.bytes_received - first.transport.bytes_received},

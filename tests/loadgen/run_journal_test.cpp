@@ -59,6 +59,16 @@ class JournalFile : public testing::Test {
   const std::string line_ = to_json(plain_run()).dump() + "\n";
 };
 
+TEST_F(JournalFile, OfAnotherSchemaIsRefusedByItsNumber) {
+  const std::string head = to_json(JournalHead{"0123", "abc", {}}).dump();
+  EXPECT_EQ(complaint_about(head + "\n" + line_), "no complaint");
+  std::string other = head, older = head;
+  other.replace(other.find("\"schema\":1"), 10, "\"schema\":2");
+  older.erase(older.find("\"schema\":1,"), 11);
+  EXPECT_THAT(complaint_about(other + "\n" + line_), testing::HasSubstr("runs.jsonl:1: schema 2; this version reads schema 1"));
+  EXPECT_THAT(complaint_about(older + "\n" + line_), testing::HasSubstr("runs.jsonl:1: schema none; this version reads schema 1"));
+}
+
 TEST_F(JournalFile, ARunReadBackIsWrittenAsTheSameLine) {
   std::string complaint;
   for (const nlohmann::ordered_json& line : {to_json(plain_run()), to_json(RunRecord{}), line_of_distinct_values()}) {
