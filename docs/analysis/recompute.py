@@ -13,7 +13,7 @@ import sys
 
 TOLERANCE = 1e-9
 HEADERS = 66  # bytes: Ethernet 14, IPv4 20, TCP with timestamps 32
-PARAMETERS = (("view_fraction", "view", "0.05"), ("view_margin", "margin", "0"), ("sweep_ticks", "sweep", "0"),
+PARAMETERS = (("view_fraction", "view", "0.05"), ("view_margin", "margin", "0.3"), ("sweep_ticks", "sweep", "0"),
               ("cell_size", "cell", "0"), ("tick_rate_hz", "rate", "30"), ("threshold", "threshold", "0.005"),
               ("extrapolate", "extrapolate", "1"))  # column, what file names call it, what they leave out
 KEYS = ("part", "mode", "scheme", "policy", "clients", "pucks", "bats", "server_cores") + tuple(p[0] for p in PARAMETERS) + ("seed",)

@@ -13,7 +13,7 @@
 
 namespace rink::physics {
 
-/// With a million bodies nearly every event misses the processor's cache of addresses, too: pages of 2 MiB make it a fifth quicker (docs/results.md, "Physics speed"). Small arrays
+/// With a million bodies nearly every event misses the processor's cache of addresses, too: pages of 2 MiB make it a fifth quicker. Small arrays
 /// come from the ordinary heap.
 template <class T>
 struct LargePageAllocator {

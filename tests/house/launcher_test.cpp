@@ -107,7 +107,8 @@ TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
     for (const char* command : {"play", "compare", "test", "serve", "peer", "duel", "bots",
-                                "simulate", "replay", "accuracy", "bench", "package", "setup"})
+                                "simulate", "replay", "accuracy", "bench", "results", "package",
+                              "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
   }
@@ -147,7 +148,7 @@ TEST_F(Launcher, MeasuresWithoutAsserts) {
 
 TEST_F(Launcher, EndsWithTheStatusOfItsCommand) {
   for (const char* command : {"compare", "play", "serve", "peer", "duel", "bots", "simulate",
-                              "replay", "accuracy", "bench", "test"})
+                              "replay", "accuracy", "bench", "test", "results"})
     EXPECT_EQ(run(command, "STATUS=17"), 17) << command;
 }
 
@@ -185,6 +186,11 @@ TEST_F(Launcher, RunsTheQuickTestsUnlessOthersAreAskedFor) {
   run("test --preset asan");
   EXPECT_THAT(calls_, ElementsAre("cmake --preset asan", "ninja -C ./build-asan all",
                                   runs + "-asan -LE long"));
+}
+
+TEST_F(Launcher, LeavesToTheProgramOfThePageWhatItBuilds) {
+  run("results --resume");
+  EXPECT_THAT(calls_, ElementsAre("python3 ./bench/results.py --resume"));
 }
 
 TEST_F(Launcher, RunsTheThreadedTestsUnderTheThreadSanitizer) {
