@@ -118,6 +118,8 @@ def crowd_table(folder):
 
 def provenance_lines(folder):
     facts = json.loads((folder / "provenance.json").read_text())
+    for told_elsewhere in ("schema", "command"):
+        facts.pop(told_elsewhere, None)
     return [line for name, fact in facts.items() for line in textwrap.wrap(f"{name}: {fact}", WIDTH, subsequent_indent="  ", break_long_words=False)]
 
 
