@@ -30,6 +30,7 @@
 #include "loadgen/server_cores.h"
 #include "loadgen/table.h"
 #include "loadgen/tidy.h"
+#include "loadgen/traces.h"
 #include "rti/schemes.h"
 
 namespace {
@@ -85,7 +86,7 @@ void heed_signals() {
 
 struct Options {
   std::string experiment;
-  std::string out, programs, from;
+  std::string out, programs, from, trace;
   bool may_replace = false, is_resumed = false, is_dry_run = false;
   std::vector<std::string> assertions;
   std::uint32_t seeds = 0;
@@ -290,6 +291,12 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   return status == success && !wide.empty() ? width_not_reached : status;
 }
 
+ExitStatus trace(const std::filesystem::path& folder) {
+  const std::size_t written = rink::loadgen::write_traces(folder);
+  (written > 0 ? std::cout : std::cerr) << "rink-compare: " << folder.string() << ": traces of " << written << " valid runs that left evidence\n";
+  return written > 0 ? success : nothing_measured;
+}
+
 void add_saturate_options(CLI::App& app, SaturateOptions& options) {
   CLI::Option* wanted = app.add_flag("--saturate", options.is_wanted, "search the largest number of clients that holds a service level instead (docs/scaling.md)");
   const auto add = [&app, wanted](const char* flag, auto& value, const char* meaning) { return app.add_option(flag, value, meaning)->needs(wanted); };
@@ -318,6 +325,11 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory)
       ->excludes(app.get_option("EXPERIMENT"))
       ->excludes(resume);
+  app.add_option("--trace", options.trace, "write where everything truly was into this report folder, for docs/analysis/recompute.py (some 10 MB for each run of 100 clients)")
+      ->check(CLI::ExistingDirectory)
+      ->excludes(app.get_option("EXPERIMENT"))
+      ->excludes(app.get_option("--from"))
+      ->excludes(resume);
   app.add_option("--seeds", options.seeds, "replications of every cell: so many of the experiment's seeds, and the numbers after them; with --until-width at most so many")->check(rink::game::number_from(1, 10'000));
   const auto take_width = [&options](const std::string& text) {
     try {
@@ -340,6 +352,7 @@ int main(int argc, char** argv) {
   if (options.until_width > 0.0 && options.seeds == 0) options.seeds = replications_max;
   heed_signals();
   try {
+    if (!options.trace.empty()) return trace(options.trace);
     return compare(options, std::vector<std::string>(argv, argv + argc));
   } catch (const rink::loadgen::BaselineError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";

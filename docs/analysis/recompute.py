@@ -11,6 +11,9 @@ import math
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True
+import truth
+
 TOLERANCE = 1e-9
 HEADERS = 66  # bytes: Ethernet 14, IPv4 20, TCP with timestamps 32
 PARAMETERS = (("view_fraction", "view", "0.05"), ("view_margin", "margin", "0.3"), ("sweep_ticks", "sweep", "0"),
@@ -105,7 +108,10 @@ def tick_figures(evidence):
     head = evidence[0]
     costs = [tick for line in evidence if "ticks_us" in line for tick in line["ticks_us"]]
     ticks = [tick for tick in costs if head["from_s"] - 1e-9 <= tick[0] < head["until_s"] - 1e-9]
-    return {"ticks": len(ticks)}
+    figures = {"ticks": len(ticks)}
+    if any(sum(tick[1:]) > 0.0 for tick in costs):
+        figures.update(truth.percentiles([sum(tick[1:]) for tick in costs], "tick_us", 1.0))
+    return figures
 
 
 def scope_figures(head, bots):
@@ -145,6 +151,10 @@ def recomputed(cells, name):
     figures = traffic_figures(server, bots)
     figures["entities"] = server["entities"]
     figures["late_sends_fraction"] = bots["late_sends_fraction"]
+    if server.get("pace") == "realtime":
+        for figure in ("ticks_on_time_fraction", "physics_us_per_tick", "filter_us_per_tick", "send_us_per_tick", "server_rss_bytes"):
+            figures[figure] = server[figure]
+        figures["bots_cpu_share"], figures["histogram_ns_per_record"] = bots["cpu_share"], bots["histogram_ns_per_record"]
     figures.update(percentiles(bots["update_age_ms"], "update_age_ms"))
     if not bots["schedule_trouble"]:
         figures.update(percentiles(bots["key_to_effect_ms"], "key_to_effect_ms"))
@@ -153,6 +163,10 @@ def recomputed(cells, name):
         return figures, "no whole evidence, so reports alone"
     figures.update(tick_figures(of_server))
     figures.update(scope_figures(of_server[0], of_bots))
+    try:
+        figures.update(truth.judged(of_server, of_bots, cells / f"{name}.truth.jsonl"))
+    except truth.Untold as untold:
+        return figures, f"not judged again: {untold}"
     return figures, ""
 
 
@@ -187,7 +201,7 @@ def main(folder):
     for figure, count in sorted(checked.items()):
         print(f"{'differs' if differing[figure] else 'agrees '}  {figure} ({count} runs)")
     for figure in sorted(known - checked.keys()):
-        why = "needs the game played again" if figure.startswith(OF_TRUTH) else "the evidence does not have it"
+        why = "needs the game played again (rink compare --trace)" if figure.startswith(OF_TRUTH) else "the kernel's count alone, in runs.jsonl"
         print(f"skipped  {figure}: {why}")
     for gap, count in gaps.items():
         print(f"{count} runs: {gap}")

@@ -41,6 +41,7 @@ class Replay {
 
   std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;
   std::optional<std::uint32_t> bat_of(std::uint32_t player) const;
+  const game::Game& game() const { return game_; }
   std::uint32_t player_count() const { return game_.player_count(); }
   /// Contacts since the instant before.
   std::span<const physics::Event> events() const { return game_.events(); }

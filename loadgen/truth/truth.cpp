@@ -10,6 +10,7 @@
 #include "loadgen/truth/replay.h"
 #include "loadgen/truth/scope_history.h"
 #include "loadgen/truth/stays.h"
+#include "loadgen/truth/trace.h"
 
 namespace rink::loadgen {
 namespace {
@@ -41,12 +42,18 @@ class ReplayJudgement {
     plan_looks();
   }
 
+  /// Keeps in it where everything was; before `figures`.
+  void trace_to(TruthTrace& trace) {
+    trace_ = &trace;
+    trace.begin(area_, replay_);
+  }
+
   TruthFigures figures() {
     double looked_s = -1.0;
     for (const Look& look : looks_) {
       replay_.advance(look.instant_s);
       judge_contacts();
-      if (look.instant_s != looked_s) replay_.look_around();
+      if (look.instant_s != looked_s) look_around(look.instant_s);
       looked_s = look.instant_s;
       judge(look);
     }
@@ -57,6 +64,11 @@ class ReplayJudgement {
   }
 
  private:
+  void look_around(double instant_s) {
+    replay_.look_around();
+    if (trace_) trace_->look(instant_s, replay_);
+  }
+
   void add_player(const BotsEvidence::Bot& bot) {
     std::vector<ScopeStep> steps;
     for (const BotsEvidence::ScopeChange& change : bot.changes)
@@ -171,6 +183,7 @@ class ReplayJudgement {
   void judge_contacts() {
     for (const physics::Event& impact : replay_.events()) {
       if (!physics::is_impact(impact.kind) || impact.time <= contacts_until_s_ || impact.time < server_.from_s || impact.time >= server_.until_s || !impact.other) continue;
+      if (trace_) trace_->contact(impact.time, impact.body.index, impact.other->index);
       for (Player& player : players_) {
         if (player.bat == impact.body.index) judge_contact(player, impact.other->index, impact.time);
         if (player.bat == impact.other->index) judge_contact(player, impact.body.index, impact.time);
@@ -192,6 +205,7 @@ class ReplayJudgement {
   const BotsEvidence& bots_;
   RelevanceArea area_;
   Replay replay_;
+  TruthTrace* trace_ = nullptr;
   std::vector<Player> players_;
   std::vector<Look> looks_;
   std::vector<Relevant> relevant_;
@@ -244,6 +258,14 @@ TruthFigures ReplayJudgement::sums() {
 }  // namespace
 
 TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return ReplayJudgement(server, bots, area).figures(); }
+
+void write_trace(const std::string& file, const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) {
+  TruthTrace trace(file);
+  ReplayJudgement judgement(server, bots, area);
+  judgement.trace_to(trace);
+  judgement.figures();
+  trace.finish();
+}
 
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
   const physics::Field& field = scene.world.field;

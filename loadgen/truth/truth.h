@@ -19,6 +19,9 @@ class DifferentGame : public game::EvidenceError {
 /// not end in the server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the scene cannot be read.
 TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area);
 
+/// Writes where everything was whenever `truth_of` looks (loadgen/truth/trace.h), for programs that judge again. Throws what `truth_of` does, and std::runtime_error if `file` cannot be written.
+void write_trace(const std::string& file, const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area);
+
 /// What `experiment` calls relevant in `cell`, which plays `scene`.
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene);
 

@@ -71,6 +71,17 @@ TEST_F(CompareHelp, NamesEverySchemeAndStageWithItsParameters) {
     for (const std::string& name : names) EXPECT_THAT(printed_, HasSubstr("  " + im::usage_of(name)));
 }
 
+TEST_F(CompareCommandTest, AFolderWithoutEvidenceHasNoTraces) {
+  ASSERT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
+  EXPECT_NE(exit_status_of({"--trace", (folder_ / "out").string()}), 0) << "the stubs left none";
+  EXPECT_THAT(errors_, HasSubstr("traces of 0 valid runs that left evidence"));
+  EXPECT_NE(exit_status_of({"--trace", (folder_ / "nowhere").string()}), 0);
+  EXPECT_THAT(errors_, HasSubstr("nowhere"));
+  std::filesystem::remove(folder_ / "out/scene.toml");
+  EXPECT_EQ(exit_status_of({"--trace", (folder_ / "out").string()}), 10);
+  EXPECT_THAT(errors_, HasSubstr("scene.toml"));
+}
+
 TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   EXPECT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
   const std::string runs = content("out/runs.jsonl");
