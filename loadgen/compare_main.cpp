@@ -38,7 +38,7 @@ namespace {
 using namespace rink::loadgen;
 
 enum ExitStatus { success = 0, bad_usage = 2, some_invalid = 3, nothing_measured = 4, output_failed = 5, assertion_failed = 6, reader_gone = 7,
-                  no_baseline = 8, width_not_reached = 9, bad_report_folder = 10, not_repeated = 11, hung_up = 129, interrupted = 130 };
+                  no_baseline = 8, width_not_reached = 9, bad_report_folder = 10, not_repeated = 11, no_relevance = 12, hung_up = 129, interrupted = 130 };
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
@@ -49,7 +49,8 @@ Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
              printed (the folder is complete); 8 a baseline that no cell has; 9 intervals are wider than --until-width
              asks for after --seeds replications; 10 the folder of --from lacks a file, has one altered or is of another
-             version; 11 what --from repeats says something else; 129 the terminal went away; 130 interrupted (what was measured is kept).
+             version; 11 what --from repeats says something else; 12 a relevance expression that is none; 129 the terminal went
+             away; 130 interrupted (what was measured is kept).
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
@@ -359,6 +360,9 @@ int main(int argc, char** argv) {
     return no_baseline;
   } catch (const ExperimentError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
+  } catch (const rink::loadgen::RelevanceError& error) {
+    std::cerr << "rink-compare: " << error.what() << "\n";
+    return no_relevance;
     return bad_usage;
   } catch (const ReportFolderError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";

@@ -54,8 +54,9 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
                 [&result](double v) { return v == 0.0 || (v > 0.0 && v <= 1e12 && result.view_fractions.size() == 1); });
   reader.number("delay_ms", result.delay_ms, "a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 10'000.0; });
   reader.choice<TransportKind>("transport", result.transport, {{"tcp", TransportKind::tcp}, {"udp", TransportKind::udp}, {"shm", TransportKind::shared_memory}, {"virtual", TransportKind::virtual_time}});
-  reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}, {"contact", Relevance::contact}});
+  reader.choice<Relevance>("relevance", result.relevance, {{"rectangle", Relevance::rectangle}, {"disc", Relevance::disc}, {"contact", Relevance::contact}, {"filter", Relevance::filter}});
   reader.number("contact_s", result.contact_s, "a number above 0 and at most 10", [](double v) { return v > 0.0 && v <= 10.0; });
+  reader.momentary("relevant", result.relevant);
   if (reader.has("also_relevant")) reader.choose("also_relevant", result.also_relevant, {"team", "always"});
   if (reader.has("always")) reader.choose("always", result.always, game::relevant_kind_names);
   reader.choice<Design>("design", result.design, {{"matrix", Design::matrix}, {"one_at_a_time", Design::one_at_a_time}});
@@ -105,6 +106,18 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
   const Baseline baseline = experiment.baseline();
   if (std::ranges::none_of(cells, [&](const Cell& cell) { return baseline_of(cell, baseline) == cell; }))
     throw BaselineError(file + ": baseline: no cell of the experiment is " + baseline.words());
+}
+
+/// What belongs to a kind of relevance that none of `experiment`'s cells is judged by was meant otherwise; that of another part may be left to the whole.
+void expect_use_of_relevance(const ExperimentReader& reader, const Experiment& experiment, const std::string& file) {
+  const auto is_used = [&experiment](Relevance relevance) {
+    if (experiment.parts.empty()) return experiment.relevance == relevance;
+    return std::ranges::any_of(experiment.parts, [relevance](const Experiment& part) { return part.relevance == relevance; });
+  };
+  if (!is_used(Relevance::contact)) reader.refuse_idle("contact_s", "relevance is not contact");
+  if (!is_used(Relevance::filter)) reader.refuse_idle("relevant", "relevance is not filter");
+  if (experiment.parts.empty() && experiment.relevance == Relevance::filter && experiment.relevant.empty())
+    throw RelevanceError(file + ": relevance = filter: relevant is missing: expected an expression of schemes, such as relevant = \"aura and not sight\" (docs/im.md)");
 }
 
 bool is_part_name(const std::string& name) {
@@ -174,6 +187,7 @@ Experiment part_in(ExperimentReader& reader, const Experiment& whole, const std:
   read_setting(reader, result, file);
   read_network(reader, result);
   reader.refuse_the_rest();
+  expect_use_of_relevance(reader, result, file.string());
   expect_what_peers_can(result, file.string());
   expect_use_of_always(result, file.string());
   return result;
@@ -200,6 +214,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   if (result.parts.empty()) read_network(reader, result);
   else if (reader.table("network")) {}  // each part has read it
   reader.refuse_the_rest();
+  expect_use_of_relevance(reader, result, file.string());
   expect_baseline(reader, result, file.string());
   if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());

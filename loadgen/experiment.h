@@ -27,6 +27,12 @@ class BaselineError : public ExperimentError {
   using ExperimentError::ExperimentError;
 };
 
+/// A relevance expression that is none, or that cannot say what is relevant at an instant.
+class RelevanceError : public ExperimentError {
+ public:
+  using ExperimentError::ExperimentError;
+};
+
 /// `fixed`: the scene as it is; clients play its first bats, and the plan moves all of its bats, so that every cell of one seed plays the very same game.
 /// `per_client`: the scene scaled to one bat per client at constant density.
 enum class Population { fixed, per_client };
@@ -44,8 +50,8 @@ const char* to_string(TransportKind kind);  ///< as experiments name it
 
 /// What truth calls relevant to a player; h is half the view's side. `rectangle`: an entity whose box touches the square of half side h around the bat's true
 /// centre. `disc`: one whose centre is within h of it. `contact`: whoever can touch the bat within `contact_s`, or a puck that can
-/// (loadgen/truth/encounters.h).
-enum class Relevance { rectangle, disc, contact };
+/// (loadgen/truth/encounters.h). `filter`: whoever an expression of the filters lets through (loadgen/filter_relevance.h).
+enum class Relevance { rectangle, disc, contact, filter };
 
 /// What a scheme or a client may be told beside its name: one value each in a cell, a list each in an experiment.
 struct Parameters {
@@ -100,6 +106,7 @@ struct Experiment {
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
   Relevance relevance = Relevance::rectangle;
   double contact_s = 0.5;  ///< [s] of `contact`; above 0 to 10
+  std::string relevant{};  ///< of `filter`: the expression, in which im::fault_in_momentary finds nothing
   std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side; `always`, what is always relevant
   std::vector<std::string> always;         ///< kinds of bodies that are always relevant; none: as the scene has it (game::relevant_kinds_of)
   /// What ratios refer to; read from a file that compares neither: the first of its lists; empty beside a table of others that does not name them.

@@ -16,6 +16,7 @@
 
 #include "loadgen/experiment.h"
 #include "loadgen/parameter.h"
+#include "rti/schemes.h"
 
 namespace rink::loadgen {
 
@@ -107,6 +108,16 @@ class ExperimentReader {
     into = *value;
   }
 
+  /// An expression that says what is relevant at an instant; it may be missing. Throws RelevanceError, which says at which of its characters the fault is.
+  void momentary(const char* key, std::string& into) {
+    const toml::node* node = take(key);
+    if (!node) return;
+    const auto text = node->value_exact<std::string>();
+    const auto fault = text ? im::fault_in_momentary(*text) : im::ExpressionFault{"not a text", 1};
+    if (fault) throw RelevanceError(place(node->source().begin.line) + prefix_ + key + " = " + written(*node) + ": no relevance: at character " + std::to_string(fault->character) + ": " + fault->what);
+    into = *text;
+  }
+
   void number(const char* key, double& into, const std::string& allowed, const std::function<bool(double)>& is_allowed) {
     const toml::node* node = take(key);
     if (!node) return;
@@ -172,6 +183,11 @@ class ExperimentReader {
   /// Complains about the table as a whole.
   [[noreturn]] void refuse_all(const std::string& why) const {
     throw ExperimentError(place(table_.source().begin.line) + prefix_.substr(0, prefix_.size() - !prefix_.empty()) + ": " + why);
+  }
+
+  /// Complains about `key` if this very table has it.
+  void refuse_idle(const char* key, const std::string& why) const {
+    if (const toml::node* node = table_.get(key)) throw ExperimentError(place(node->source().begin.line) + prefix_ + key + " = " + written(*node) + " changes nothing: " + why);
   }
 
   void refuse_the_rest() const {

@@ -10,6 +10,7 @@
 #include "im/composition/expression.h"
 #include "im/composition/pair_states.h"
 #include "im/composition/schemes.h"
+#include "im/expression_fault.h"
 #include "im/matching/rejection.h"
 #include "im/stages/stages.h"
 #include "im/usage.h"
@@ -181,11 +182,8 @@ std::string judge_settings(const FilterSettings& settings) {
   return {};
 }
 
-}  // namespace
-
-std::string judge_expression(const Expression& expression) {
-  for (const Expression& operand : expression.operands)
-    if (std::string complaint = judge_expression(operand); !complaint.empty()) return complaint;
+/// What is wrong with `expression` itself, whose operands are sound.
+std::string judge_own(const Expression& expression) {
   const auto names = expression.kind == Kind::stage ? stage_names() : filter_names();
   if (is_operand(expression)) {
     if (std::find(names.begin(), names.end(), expression.name) == names.end())
@@ -200,6 +198,30 @@ std::string judge_expression(const Expression& expression) {
     if (is_last && !is_tiers_in_priority) return "after " + operand.name + " nothing may follow" + (operand.name == "tiers" ? " but priority" : "") + ": it says more of a pair than that it is relevant";
   }
   return {};
+}
+
+/// The innermost stage that is first in the text, or nothing.
+const Expression* stage_in(const Expression& expression) {
+  for (const Expression& operand : expression.operands)
+    if (const Expression* const found = stage_in(operand)) return found;
+  return expression.kind == Kind::stage ? &expression : nullptr;
+}
+
+std::string why_not_momentary(const Expression& stage) {
+  const bool goes_by_before = stage.name == "hysteresis" || stage.name == "dwell";
+  return stage.name + (goes_by_before               ? " goes by what was relevant before"
+                       : stage.name == "swept" ? " goes by what is foreseen"
+                                               : " says how often something is told, not whether it is relevant") +
+         ": what is relevant at an instant is said by schemes alone";
+}
+
+}  // namespace
+
+std::string judge_expression(const Expression& expression, Expression::Place* place) {
+  for (const Expression& operand : expression.operands)
+    if (std::string complaint = judge_expression(operand, place); !complaint.empty()) return complaint;
+  if (place) *place = expression.place;
+  return judge_own(expression);
 }
 
 std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings) {
@@ -229,6 +251,22 @@ std::optional<std::string> complaint_about(const std::string& text, const Filter
   if (complaint.empty()) complaint = judge_expression(expression);
   if (complaint.empty()) complaint = judge_settings(settings);
   return complaint.empty() ? std::nullopt : std::optional(complaint);
+}
+
+std::optional<ExpressionFault> fault_in(const std::string& text) {
+  Expression expression;
+  Expression::Place place;
+  std::string complaint = read_expression(text, expression, &place);
+  if (complaint.empty()) complaint = judge_expression(expression, &place);
+  return complaint.empty() ? std::nullopt : std::optional(ExpressionFault{complaint, place.character + 1});
+}
+
+std::optional<ExpressionFault> fault_in_momentary(const std::string& text) {
+  if (auto fault = fault_in(text)) return fault;
+  Expression expression;
+  read_expression(text, expression);
+  const Expression* const stage = stage_in(expression);
+  return stage ? std::optional(ExpressionFault{why_not_momentary(*stage), stage->place.character + 1}) : std::nullopt;
 }
 
 std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSettings& settings) {

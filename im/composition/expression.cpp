@@ -19,13 +19,15 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 class Reader {
  public:
-  explicit Reader(std::string_view text) : rest_(text) { next(); }
+  explicit Reader(std::string_view text) : begin_(text.data()), rest_(text) { next(); }
 
   std::string read(Expression& expression) {
     expression = whole();
     if (complaint_.empty() && !token_.empty()) complain("expected 'and', 'or', 'with' or the end");
     return complaint_;
   }
+  /// Of what it complained about.
+  Expression::Place place() const { return complained_at_; }
 
  private:
   /// A word, a number or a sign; empty at the end.
@@ -44,8 +46,12 @@ class Reader {
     return true;
   }
   void complain(const std::string& what) {
-    if (complaint_.empty()) complaint_ = what + (token_.empty() ? " where it ends" : " at '" + std::string(token_) + "'");
+    if (!complaint_.empty()) return;
+    complaint_ = what + (token_.empty() ? " where it ends" : " at '" + std::string(token_) + "'");
+    complained_at_ = here();
   }
+
+  Expression::Place here() const { return {static_cast<std::size_t>(token_.data() - begin_)}; }
 
   Expression whole() {
     if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
@@ -64,7 +70,7 @@ class Reader {
     const auto operand = [&] { return is_or ? joined(Expression::Kind::conjunction) : term(); };
     Expression result = operand();
     while (take(is_or ? "or" : "and")) {
-      Expression both{.kind = kind, .name = {}, .parameters = {}, .operands = {}};
+      Expression both{.kind = kind, .name = {}, .parameters = {}, .operands = {}, .place = result.place};
       both.operands.push_back(std::move(result));
       both.operands.push_back(operand());
       result = std::move(both);
@@ -74,7 +80,7 @@ class Reader {
   Expression term() {
     if (take("not")) {
       if (++depth_ > depth_max) return complain("more than 32 levels of parentheses and 'not'"), Expression{};
-      Expression negation{.kind = Expression::Kind::negation, .name = {}, .parameters = {}, .operands = {}};
+      Expression negation{.kind = Expression::Kind::negation, .name = {}, .parameters = {}, .operands = {}, .place = here()};
       negation.operands.push_back(term());
       --depth_;
       return negation;
@@ -85,7 +91,7 @@ class Reader {
     return inner;
   }
   Expression named(Expression::Kind kind, const char* expected) {
-    Expression result{.kind = kind, .name = std::string(token_), .parameters = {}, .operands = {}};
+    Expression result{.kind = kind, .name = std::string(token_), .parameters = {}, .operands = {}, .place = here()};
     if (token_.empty() || !is_letter(token_.front()) || token_ == "and" || token_ == "or" || token_ == "not" || token_ == "with") complain(expected);
     next();
     if (!take("(")) return result;
@@ -104,10 +110,12 @@ class Reader {
     return result;
   }
 
+  const char* begin_;
   std::string_view rest_, token_;
   bool is_number_ = false;
   int depth_ = -1, stages_ = 0;  // the whole is no level
   std::string complaint_;
+  Expression::Place complained_at_;
 };
 
 }  // namespace
@@ -118,9 +126,15 @@ double Expression::parameter(std::string_view key, double otherwise) const {
   return otherwise;
 }
 
-std::string read_expression(std::string_view text, Expression& expression) {
-  if (text.size() > expression_size_max) return "longer than " + std::to_string(expression_size_max) + " characters";
-  return Reader(text).read(expression);
+std::string read_expression(std::string_view text, Expression& expression, Expression::Place* place) {
+  if (text.size() > expression_size_max) {
+    if (place) *place = {expression_size_max};
+    return "longer than " + std::to_string(expression_size_max) + " characters";
+  }
+  Reader reader(text);
+  std::string complaint = reader.read(expression);
+  if (place) *place = reader.place();
+  return complaint;
 }
 
 }  // namespace rink::im

@@ -1,6 +1,7 @@
 // How a scheme is written: names with parameters, and, or, not, parentheses, and stages after `with`.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,10 +23,16 @@ struct Expression {
     double value;
     friend bool operator==(const Parameter&, const Parameter&) = default;
   };
+  /// Where it begins in the text, from 0; no part of what it says, so any two are equal.
+  struct Place {
+    std::size_t character = 0;
+    friend bool operator==(const Place&, const Place&) { return true; }
+  };
   Kind kind = Kind::scheme;
   std::string name;                   ///< of a scheme or stage
   std::vector<Parameter> parameters;  ///< of it, as written
   std::vector<Expression> operands;   ///< one of a stage and of `not`; two of `and` and `or`
+  Place place{};
 
   friend bool operator==(const Expression&, const Expression&) = default;
 
@@ -33,11 +40,11 @@ struct Expression {
   double parameter(std::string_view key, double otherwise) const;
 };
 
-/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender; an empty text if nothing is.
-std::string read_expression(std::string_view text, Expression& expression);
+/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender, whose `place` is said to who asks; an empty text if nothing is.
+std::string read_expression(std::string_view text, Expression& expression, Expression::Place* place = nullptr);
 
-/// What is wrong with the names and parameters in `expression`; an empty text if nothing is.
-std::string judge_expression(const Expression& expression);
+/// What is wrong with the names and parameters in `expression`, and likewise where; an empty text if nothing is.
+std::string judge_expression(const Expression& expression, Expression::Place* place = nullptr);
 
 /// The filter that a judged expression says.
 std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings);

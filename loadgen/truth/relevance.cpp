@@ -9,7 +9,7 @@
 namespace rink::loadgen {
 
 double depth(const RelevanceArea& area, const Vector2& bat, const Vector2& centre, const Vector2& half_extent) {
-  assert(area.shape != RelevanceArea::Shape::contact);
+  assert(area.shape == RelevanceArea::Shape::square || area.shape == RelevanceArea::Shape::disc);
   const Vector2 offset = centre - bat;
   if (area.shape == RelevanceArea::Shape::disc) return area.reach - offset.norm();
   return std::min(area.reach + half_extent.x() - std::abs(offset.x()), area.reach + half_extent.y() - std::abs(offset.y()));
@@ -25,7 +25,7 @@ std::string text_of(const RelevanceArea& area) {
   else if (area.shape == RelevanceArea::Shape::contact)
     std::snprintf(text, sizeof text, "whoever can touch the bat within %.3g s, or a puck that can", area.contact_s);
   else std::snprintf(text, sizeof text, "square of %.3g m around the bat, touched by the entity's box", 2.0 * area.reach);
-  std::string words = text;
+  std::string words = area.shape == RelevanceArea::Shape::filter ? "whoever '" + area.expression + "' lets through, of a " + std::string(text).substr(0, std::string(text).find(',')) : text;
   if (area.has_team) words += ", or a bat of the player's team";
   if (!area.always) return words;
   std::string kinds;

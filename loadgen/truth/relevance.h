@@ -12,14 +12,17 @@ namespace rink::loadgen {
 using physics::Vector2;
 
 /// `square`: an entity whose bounding box touches the closed square of half side `reach` around the bat's true centre. `disc`: one whose centre is at most
-/// `reach` from it. `contact`: who can touch the bat within `contact_s`, or a puck that can (loadgen/truth/encounters.h).
+/// `reach` from it. `contact`: who can touch the bat within `contact_s`, or a puck that can (loadgen/truth/encounters.h). `filter`: who `expression` lets through, with
+/// that square for the subscription (loadgen/filter_relevance.h).
 struct RelevanceArea {
-  enum class Shape : std::uint8_t { square, disc, contact };
+  enum class Shape : std::uint8_t { square, disc, contact, filter };
   Shape shape = Shape::square;
   double reach = 1.0;  ///< m, above 0
   bool has_team = false;                       ///< bats of the player's side are relevant as well, wherever they are,
   std::optional<game::RelevantKinds> always{}; ///< and so is what is of these kinds
   double contact_s = 0.5;  ///< of `contact`, above 0
+  std::string expression{};                ///< of `filter`: one in which im::fault_in_momentary finds nothing
+  game::RelevantKinds always_by_role{};    ///< what its scheme `always` lets through
 };
 
 /// True if `area` makes an entity of that kind and team relevant to a player of `own` team wherever both are.

@@ -19,6 +19,7 @@ Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence, c
       puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction), bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
       encounters_(scene.world.field.length, scene.world.field.width), rate_hz_(evidence.rate_hz) {
   for (const game::Bat& bat : scene.bodies.bats) thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
+  if (area.shape == RelevanceArea::Shape::filter) filter_.emplace(area, scene);
   game_.record_events(true);
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
@@ -39,6 +40,7 @@ void Replay::look_around() {
   for (const game::Entity& entity : game_.entities()) {
     const Vector2 centre = announced_centre(entity.id);
     centres_[entity.id.index] = centre;
+    if (filter_) continue;
     if (!is_of_contact()) {
       placed_.push_back({entity.id.index, centre, entity.half_extent});
       continue;
@@ -47,7 +49,8 @@ void Replay::look_around() {
     around_[entity.id.index] = (is_disc ? entity.half_extent.x() : entity.half_extent.norm()) + reach(entity);
     reaching_.push_back({entity.id.index, centre, around_[entity.id.index], entity.kind == physics::BodyKind::puck});
   }
-  if (is_of_contact()) encounters_.build(reaching_);
+  if (filter_) filter_->look_around(game_, centres_);
+  else if (is_of_contact()) encounters_.build(reaching_);
   else surroundings_.build(placed_);
 }
 
@@ -61,6 +64,7 @@ double Replay::reach(const game::Entity& entity) const {
 }
 
 double Replay::passed(std::uint32_t own, const Relevant& now) {
+  if (filter_) return 1.0;  // it says that somebody is relevant, not how much
   Encounters::Way way{now.depth, std::nullopt};
   if (is_of_contact() && std::isfinite(now.depth)) way = encounters_.way(own, now.entity);
   const std::optional<double> before = depth_before(own, now.entity, way);
@@ -80,7 +84,8 @@ std::optional<double> Replay::depth_before(std::uint32_t a, std::uint32_t b) con
 }
 
 void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
-  if (is_of_contact()) encounters_.find(own, found);
+  if (filter_) filter_->find(own, game_, centres_, found);
+  else if (is_of_contact()) encounters_.find(own, found);
   else surroundings_.find(centre(own), own, found);
   if (!area_.has_team && !area_.always) return;
   const game::Team team = game_.entity({own}).team;

@@ -9,6 +9,7 @@
 
 #include "game/control/game.h"
 #include "game/net/evidence.h"
+#include "loadgen/filter_relevance.h"
 #include "loadgen/truth/encounters.h"
 #include "loadgen/truth/reach.h"
 #include "loadgen/truth/surroundings.h"
@@ -25,6 +26,9 @@ class Replay {
   void advance(double instant_s);
   /// Takes in where everything is now; asked for once for each instant at which `find` is used.
   void look_around();
+
+  /// Whether what is relevant depends on how things went since the beginning, so that someone has to have looked around all the while.
+  bool looks_back() const { return filter_ && filter_->looks_back(); }
 
   bool is_there(std::uint32_t entity) const { return entity < centres_.size() && centres_[entity].has_value(); }
   /// At the last look; `entity` must have been there.
@@ -65,6 +69,7 @@ class Replay {
   Reach puck_reach_, bat_reach_;
   std::vector<double> thrust_max_;  ///< by player [m/s^2]
   Encounters encounters_;
+  std::optional<FilterRelevance> filter_;
   double rate_hz_;
   std::vector<std::optional<Away>> away_;  ///< by entity; pucks out of play
   std::vector<std::optional<double>> replaced_s_;  ///< by entity

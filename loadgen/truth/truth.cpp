@@ -29,7 +29,7 @@ struct Player {
 
 /// Something to be judged at an instant; `index` is into what its kind is about.
 struct Look {
-  enum class Kind : std::uint8_t { step, decision, displayed, matched };
+  enum class Kind : std::uint8_t { before, step, decision, displayed, matched };
   double instant_s;
   Kind kind;
   std::size_t index;
@@ -87,6 +87,7 @@ class ReplayJudgement {
       looks_.push_back({bots_.samples[i].matched_s, Look::Kind::matched, i});
     }
     std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= 0.0 && look.instant_s <= server_.end_s); });
+    for (std::size_t i = 0; replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i) looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
     std::stable_sort(looks_.begin(), looks_.end(), [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
   }
 
@@ -98,6 +99,7 @@ class ReplayJudgement {
       case Look::Kind::matched: return judge_matched(bots_.samples[look.index]);
     }
   }
+      case Look::Kind::before: return;
 
   bool is_present(const Player& player) const { return player.bat && replay_.is_there(*player.bat); }
 
@@ -271,8 +273,9 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
   const physics::Field& field = scene.world.field;
   const double reach = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
   using Shape = RelevanceArea::Shape;
-  const Shape shape = experiment.relevance == Relevance::rectangle ? Shape::square : experiment.relevance == Relevance::disc ? Shape::disc : Shape::contact;
-  RelevanceArea area{.shape = shape, .reach = reach, .contact_s = experiment.contact_s};
+  constexpr Shape shapes[] = {Shape::square, Shape::disc, Shape::contact, Shape::filter};
+  RelevanceArea area{.shape = shapes[static_cast<std::size_t>(experiment.relevance)], .reach = reach, .contact_s = experiment.contact_s};
+  if (area.shape == Shape::filter) area.expression = experiment.relevant, area.always_by_role = game::relevant_kinds_of(scene, experiment.always);
   for (const std::string& more : experiment.also_relevant) {
     if (more == "team") area.has_team = true;
     else area.always = game::relevant_kinds_of(scene, experiment.always);

@@ -7,8 +7,10 @@
 
 namespace rink::loadgen {
 
-/// Of half side, and of radius, 1 m.
-inline constexpr RelevanceArea square{RelevanceArea::Shape::square, 1.0}, disc{RelevanceArea::Shape::disc, 1.0};
+inline constexpr double interest_radius = 1.0;  ///< m
+
+/// Of that half side, and of that radius.
+inline const RelevanceArea square{RelevanceArea::Shape::square, interest_radius}, disc{RelevanceArea::Shape::disc, interest_radius};
 
 /// No entity: for whoever has none of its own to leave out.
 inline constexpr std::uint32_t nobody = 0xffffffffu;

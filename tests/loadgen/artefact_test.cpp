@@ -82,6 +82,19 @@ TEST_F(ReportFolder, OfAnotherVersionOrNoneIsNamed) {
   EXPECT_EQ(run("compare --from " + file("nowhere")), 2);
 }
 
+TEST_F(ReportFolder, WithARelevanceExpressionThatIsNoneEndsWithItsOwnStatus) {
+  const std::string before = content("small.toml");
+  write("small.toml", "relevance = 'filter'\nrelevant = 'aura and nott sight'\n" + before);
+  EXPECT_EQ(make(), 12);
+  EXPECT_THAT(said_, AllOf(HasSubstr("small.toml:2: relevant = 'aura and nott sight'"), HasSubstr("at character 15")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "first")) << "nothing was begun";
+  write("small.toml", "relevance = 'disc'\nrelevant = 'aura'\n" + before);
+  EXPECT_EQ(make(), 2) << "an experiment that is wrong otherwise";
+  write("small.toml", "relevance = 'filter'\nrelevant = 'aura or team'\n" + before);
+  EXPECT_EQ(make(), 0) << said_;
+  EXPECT_EQ(repeat(), 0) << said_;
+}
+
 TEST_F(ReportFolder, WithABaselineThatNoCellHasEndsWithItsOwnStatus) {
   replace("small.toml", "scheme = 'none'", "scheme = 'grid'");
   EXPECT_EQ(make(), 8);

@@ -79,7 +79,7 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
   EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, virtual"));
   EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
-  EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc, contact"));
+  EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"), HasSubstr("rectangle, disc, contact, filter"));
   for (const char* seconds : {"0", "10.5", "-1"})
     EXPECT_THAT(complaint_about(minimal + "contact_s = " + seconds), HasSubstr("above 0 and at most 10"));
   EXPECT_THAT(complaint_about(minimal + "also_relevant = 'mates'"), HasSubstr("team, always"));
@@ -91,6 +91,49 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about("scene = 'crowd'"), AllOf(StartsWith("dir/x.toml: name"), HasSubstr("required")));
   EXPECT_THAT(complaint_about("name = 3\nscene = 'crowd'"), StartsWith("dir/x.toml:1: name = 3"));
   EXPECT_THAT(complaint_about(minimal + "clients = [1,,2]"), AllOf(StartsWith("dir/x.toml:3:"), HasSubstr("not TOML")));
+}
+
+/// Characters are counted from 1, and one beyond the last is where something is missing.
+TEST(ExperimentFile, ARelevanceExpressionThatIsNoneIsRefusedByFileKeyAndPlaceInIt) {
+  const auto complaint = [](const std::string& relevant) {
+    try {
+      parse_experiment(minimal + "relevance = 'filter'\n" + relevant, "dir/x.toml", {});
+    } catch (const RelevanceError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no relevance error");
+  };
+  EXPECT_THAT(complaint("relevant = 'aura and sigth'"), AllOf(StartsWith("dir/x.toml:4: relevant = 'aura and sigth'"), HasSubstr("at character 10: no scheme is called 'sigth'")));
+  EXPECT_THAT(complaint("relevant = 'aura and (sight'"), HasSubstr("at character 16: expected ')' where it ends"));
+  EXPECT_THAT(complaint("relevant = 'aura nor sight'"), HasSubstr("at character 6: expected 'and', 'or', 'with' or the end at 'nor'"));
+  EXPECT_THAT(complaint("relevant = 'team or grid(cell_size=0)'"), HasSubstr("at character 9: grid: cell_size = 0 is not a number"));
+  EXPECT_THAT(complaint("relevant = 'cone(half_angle=)'"), HasSubstr("at character 17: expected a number"));
+  EXPECT_THAT(complaint("relevant = ''"), HasSubstr("at character 1: expected the name of a scheme"));
+  EXPECT_THAT(complaint("relevant = 5"), HasSubstr("relevant = 5: no relevance: at character 1: not a text"));
+  EXPECT_THAT(complaint(""), HasSubstr("dir/x.toml: relevance = filter: relevant is missing"));
+  EXPECT_EQ(complaint("relevant = 'aura and not (sight or cone(half_angle=30)) or team'"), "no relevance error");
+}
+
+/// What they say depends on more than how things are.
+TEST(ExperimentFile, StagesSayNotWhatIsRelevantAtAnInstant) {
+  for (const auto& [stage, why] : {std::pair{"hysteresis(margin=0.3)", "goes by what was relevant before"}, {"dwell(matches=3)", "goes by what was relevant before"},
+                                   {"swept(horizon=0.1)", "goes by what is foreseen"}, {"tiers(at=0.5)", "says how often something is told"}, {"priority(budget=100)", "says how often"}}) {
+    const std::string complaint = complaint_about(minimal + "relevance = 'filter'\nrelevant = 'team or (aura with " + stage + ")'"), refused = complaint_about(minimal + "relevance = 'filter'\nrelevant = 'aura with " + stage + "'");
+    EXPECT_THAT(refused, AllOf(HasSubstr("dir/x.toml:4: relevant"), HasSubstr("at character 11: " + std::string(stage, std::string(stage).find('('))), HasSubstr(why))) << stage;
+    EXPECT_THAT(complaint, HasSubstr("relevant")) << stage;
+  }
+  EXPECT_THAT(complaint_about(minimal + "relevance = 'filter'\nrelevant = 'team or (aura with dwell(matches=3))'"), HasSubstr("at character 20: dwell goes by"));
+}
+
+TEST(ExperimentFile, WhatBelongsToAnotherKindOfRelevanceIsRefused) {
+  EXPECT_THAT(complaint_about(minimal + "contact_s = 0.25"), HasSubstr("dir/x.toml:3: contact_s = 0.25 changes nothing: relevance is not contact"));
+  EXPECT_THAT(complaint_about(minimal + "relevance = 'disc'\nrelevant = 'aura'"), HasSubstr("dir/x.toml:4: relevant = 'aura' changes nothing: relevance is not filter"));
+  const std::string parts = "contact_s = 0.2\nrelevant = 'aura'\n[[parts]]\nname = 'a'\nrelevance = 'contact'\n[[parts]]\nname = 'b'\nrelevance = 'filter'\n";
+  const Experiment experiment = parse_experiment(minimal + parts, "dir/x.toml", {});
+  EXPECT_EQ(experiment.parts[0].contact_s, 0.2);
+  EXPECT_EQ(experiment.parts[1].relevant, "aura");
+  EXPECT_THAT(complaint_about(minimal + parts + "contact_s = 0.75\n"), HasSubstr("parts.contact_s = 0.75 changes nothing"));
+  EXPECT_THAT(complaint_about(minimal + "relevant = 'aura'\n[[parts]]\nname = 'a'\n"), HasSubstr("dir/x.toml:3: relevant = 'aura' changes nothing"));
 }
 
 TEST(ExperimentFile, AFileThatCannotBeReadIsNamed) {

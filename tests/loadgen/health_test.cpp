@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double R = disc.reach; // the interest radius [m]
+constexpr double R = interest_radius; // the interest radius [m]
 constexpr double side = 24.0;    // of the box in which the points are [m]; observers stay farther from its border than anything they ask about
 constexpr double density = 60.0; // points per m^2
 constexpr double speed = 1.0;    // of points and observers [m/s]

@@ -146,6 +146,19 @@ TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
     bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});
   };
   bots_.bots[0].changes.push_back({1.0, 100 + flying, true});
+/// An expression says that it is relevant, not how much: the entry at 0.9 s is dated by the look that found it, at most 4 ms later.
+TEST_F(TinyRink, ByAnExpressionAnEntryIsDatedByTheLookThatFoundIt) {
+  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
+  decide(0.89, {bat, still});
+  decide(0.91, {bat, still, flying});
+  const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
+  EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0);
+  EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0);
+  EXPECT_LE(*truth.late_entry_ms.max, 350.0 + 1e-6);
+  EXPECT_GE(*truth.late_entry_ms.max, 346.0 - 1e-6);
+  EXPECT_EQ(truth.relevance, "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
+}
+
   bots_.bots[0].changes.push_back({1.0, 100 + far, true});
   believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});     // the own bat counts nowhere
   believe(still, 10, {10.5, 10.5}, {10.5, 10.5});

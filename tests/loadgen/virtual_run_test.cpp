@@ -207,6 +207,23 @@ TEST_F(VirtualRunTest, TruthThatTakesInTheOwnSideAndPostsIsFoundByTheExpressionT
   EXPECT_FALSE(own.filter_precision) << "his own bat is in no count, and nothing else is chosen";
 }
 
+/// The same sets by another way: every figure but the dates of entries agrees.
+TEST_F(VirtualRunTest, RelevanceByTheExpressionRegionIsThatOfTheRectangle) {
+  experiment_.clients = {12};
+  settings_.wants_truth = true;
+  const Cell region = cells_of(experiment_).back();
+  const TruthFigures rectangle = run(region).truth;
+  experiment_.relevance = Relevance::filter;
+  experiment_.relevant = "region";
+  const TruthFigures by_filter = run(region).truth;
+  EXPECT_EQ(by_filter.filter_recall, rectangle.filter_recall);
+  EXPECT_EQ(by_filter.filter_precision, rectangle.filter_precision);
+  EXPECT_EQ(by_filter.delivered_recall, rectangle.delivered_recall);
+  EXPECT_EQ(by_filter.displayed_error_mm.rms, rectangle.displayed_error_mm.rms);
+  EXPECT_EQ(by_filter.wasted_bytes_fraction, rectangle.wasted_bytes_fraction);
+  ASSERT_TRUE(rectangle.filter_recall && rectangle.wasted_bytes_fraction) << "or the test shows nothing";
+}
+
 TEST_F(VirtualRunTest, ByContactLessOfWhatIsRelevantIsInTheViewTheFartherOneLooksAhead) {
   experiment_.clients = {12};
   experiment_.relevance = Relevance::contact;
