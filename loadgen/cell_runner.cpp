@@ -8,6 +8,7 @@
 
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
+#include "loadgen/discovery_table.h"
 #include "loadgen/parameter.h"
 #include "loadgen/process.h"
 #include "loadgen/process_run.h"
@@ -60,7 +61,7 @@ class CellRun {
     record.nodes.busiest_cpu_s = record.server_cpu_s;
     record.nodes.mean_cpu_s = (*record.server_cpu_s + *record.bots_cpu_s) / (1.0 + cell_.clients);
     judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
-    if (settings_.wants_truth) add_truth(record, experiment_, server_evidence, bots_evidence);
+    if (settings_.wants_truth) add_truth(record, experiment_, server_evidence, bots_evidence, discovery_file(settings_.directory, cell_));
   }
 
  private:

@@ -15,6 +15,7 @@
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/dictionary.h"
+#include "loadgen/discovery_table.h"
 #include "loadgen/equal_error.h"
 #include "loadgen/growth.h"
 #include "loadgen/modes_table.h"
@@ -153,6 +154,7 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
     results.write("summary.csv", comment + to_csv(rows));
     results.write("comparisons.csv", comment + comparisons_csv(rows, baseline));
     results.write("tidy.csv", comment + tidy_csv(runs));
+    if (const auto discoveries = discoveries_in(results.path() / "cells", runs); !discoveries.empty()) results.write("discovery.csv", comment + discovery_csv(discoveries));
     results.write("data-dictionary.csv", comment + data_dictionary_csv());
     if (const auto compared = equal_errors_of(experiment, runs); !compared.empty()) results.write("equal_error.csv", comment + to_csv(compared));
     const auto growths = growths_of(without_curves(experiment, runs));
@@ -358,11 +360,11 @@ int main(int argc, char** argv) {
   } catch (const rink::loadgen::BaselineError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
     return no_baseline;
-  } catch (const ExperimentError& error) {
-    std::cerr << "rink-compare: " << error.what() << "\n";
   } catch (const rink::loadgen::RelevanceError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";
     return no_relevance;
+  } catch (const ExperimentError& error) {
+    std::cerr << "rink-compare: " << error.what() << "\n";
     return bad_usage;
   } catch (const ReportFolderError& error) {
     std::cerr << "rink-compare: " << error.what() << "\n";

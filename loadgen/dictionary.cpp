@@ -80,6 +80,15 @@ constexpr std::array of_figures{
     Definition{"mean_node_cpu_s", "s", "CPU time per node", "Processor time from start to end, by the kernel, mean over all nodes: server and bots, or peers"},
 };
 
+/// Of the columns that discovery.csv has beside the cell's; they are no fields of runs.jsonl.
+constexpr std::array of_discoveries{
+    Definition{"kind", "", "", "In discovery.csv: late_discovery, from becoming relevant to the first delivered state, or missed_contact, from a contact with a body that the player did not know of to its discovery"},
+    Definition{"delay_ms", "ms", "discovery latency", "In discovery.csv: a delay of that kind"},
+    Definition{"fraction", "1", "empirical distribution function", "In discovery.csv: part of the sample that was discovered within the delay"},
+    Definition{"samples", "1", "", "In discovery.csv: size of the sample, all valid replications of the cell together"},
+    Definition{"never", "1", "censored", "In discovery.csv: how many of the sample were never discovered"},
+};
+
 struct Ending {
   std::string_view suffix, meaning;
 };
@@ -124,6 +133,7 @@ std::string data_dictionary_csv() {
     assert(definition != nullptr);
     csv += dictionary_line(figure.name, "figure", *definition, ending_of(figure.name, *definition)->meaning);
   }
+  for (const Definition& column : of_discoveries) csv += dictionary_line(column.field, "discovery", {"", column.unit, column.alias, column.meaning}, "");
   return csv;
 }
 

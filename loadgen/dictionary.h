@@ -22,7 +22,7 @@ std::span<const Definition> figure_definitions();
 /// The one that the figure called `name` is a member of, e.g. update_age_ms of update_age_ms_p99; null if there is none.
 const Definition* definition_of(const std::string& name);
 
-/// Every column of the cell and every figure as CSV, a line each: name, kind (cell or figure), unit, alias, field and definition.
+/// Every column of the cell, every figure and every further column of discovery.csv as CSV, a line each: name, kind (cell, figure or discovery), unit, alias, field, empty of the last, and definition.
 std::string data_dictionary_csv();
 
 }  // namespace rink::loadgen

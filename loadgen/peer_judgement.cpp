@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "loadgen/discovery_table.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/truth/truth.h"
 #include "loadgen/virtual_parts.h"
@@ -60,7 +61,7 @@ void judge_peers(const RunnerSettings& settings, const Experiment& experiment, R
   write_json(settings.directory / (name + ".peers.json"), peers);
   write_json(settings.directory / (name + ".bots.json"), players);
   judge(record, peers, players);
-  if (settings.wants_truth) add_truth(record, experiment, server_file, bots_file);
+  if (settings.wants_truth) add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, record.cell));
 }
 
 }  // namespace rink::loadgen

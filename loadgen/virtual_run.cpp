@@ -16,6 +16,7 @@
 #include "game/players/player.h"
 #include "loadgen/bot_crowd.h"
 #include "loadgen/bots_report.h"
+#include "loadgen/discovery_table.h"
 #include "loadgen/game_plan.h"
 #include "loadgen/parameter.h"
 #include "loadgen/results.h"
@@ -260,7 +261,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"), bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
   game::write_evidence(server_file, server_evidence);
   write_evidence(bots_file, bots_evidence);
-  add_truth(record, experiment, server_file, bots_file);
+  add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "loadgen/discovery_table.h"
 #include "loadgen/equal_error.h"
 #include "loadgen/experiment.h"
 #include "loadgen/histogram.h"
@@ -27,6 +28,7 @@ struct Findings {
   std::span<const CellLatencies> latencies;
   std::vector<CellLine> lines;
   std::string relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
+  std::span<const CellDiscoveries> discoveries{};
 };
 
 /// A section's markup, its plots and the tables behind them.
@@ -65,6 +67,8 @@ std::string equal_error_headline(const std::vector<EqualError>& comparisons);
 Exhibit relevance_exhibit(const Findings& findings);
 /// Bytes against the recall and against the precision of the filter's decisions, for each line that is drawn; nothing if no run was held against truth.
 void add_bytes_against_relevance(Exhibit& exhibit, const Findings& findings);
+/// Late discoveries and missed contacts as distribution functions, of the largest number of clients.
+Exhibit discovery_exhibit(const Findings& findings);
 /// What each parameter does that the experiment lists several values of.
 Exhibit sweep_exhibit(const Findings& findings);
 /// Whether some of the compared expressions differ in their numbers alone, and bytes against error and recall with a curve for each form of them.

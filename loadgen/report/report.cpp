@@ -110,16 +110,17 @@ std::string introduction_of(const Findings& findings, const std::vector<EqualErr
 }  // namespace
 
 Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, const Provenance& provenance, std::span<const CellLatencies> latencies,
-                 std::span<const ReportSection> more_sections) {
+                 std::span<const ReportSection> more_sections, std::span<const CellDiscoveries> discoveries) {
   const std::vector<RunRecord> rows = without_curves(experiment, runs);
   const std::vector<EqualError> comparisons = equal_errors_of(experiment, runs);
-  const Findings findings{experiment, rows, latencies, lines_of(rows), relevance_of(rows)};
+  const Findings findings{experiment, rows, latencies, lines_of(rows), relevance_of(rows), discoveries};
   Page page;
   if (!comparisons.empty()) page.add("equal-error", "Rivals at equal error", equal_error_exhibit(experiment, runs, comparisons));
   page.add("traffic", "Traffic", traffic_exhibit(findings));
   if (has_several_modes(runs)) page.add("modes", "With and without a server", modes_exhibit(findings));
   page.add("gains", "Bytes against error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
+  if (!discoveries.empty()) page.add("discovery", "Late discoveries and missed contacts", discovery_exhibit(findings));
   page.add("sweeps", "Parameters", sweep_exhibit(findings));
   if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_exhibit(findings));
   page.add("latency", "Latency", latency_exhibit(findings));

@@ -18,6 +18,7 @@ void Stays::look(double instant_s, std::span<const Relevant> relevant, const Sco
     stay.seen = looks_;
     if (stay.is_settled || !delivered.contains(each.entity)) continue;
     lateness_s_.push_back(std::max(0.0, *delivered.entered_s(each.entity) - stay.begin_s));
+    delivered_after_s_.push_back(lateness_s_.back());
     stay.is_settled = true;
   }
   last_s_ = instant_s;

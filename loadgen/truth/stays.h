@@ -28,6 +28,8 @@ class Stays {
 
   /// How late each entry was [s], in order of its delivery; 0 if the entity was there already.
   const std::vector<double>& lateness_s() const { return lateness_s_; }
+  /// Of those that were delivered.
+  const std::vector<double>& delivered_after_s() const { return delivered_after_s_; }
   /// Stays that ended, or were last seen, without a delivery.
   std::uint64_t never_delivered() const { return never_delivered_; }
 
@@ -44,7 +46,7 @@ class Stays {
   std::vector<std::uint32_t> open_;
   std::uint64_t looks_ = 0;
   double last_s_ = 0.0;
-  std::vector<double> lateness_s_;
+  std::vector<double> lateness_s_, delivered_after_s_;
   std::uint64_t never_delivered_ = 0;
 };
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <system_error>
 
 #include "game/net/evidence_lines.h"
 #include "game/net/view.h"
+#include "loadgen/discovery_table.h"
 #include "loadgen/truth/classification.h"
 #include "loadgen/truth/replay.h"
 #include "loadgen/truth/scope_history.h"
@@ -48,6 +51,9 @@ class ReplayJudgement {
     trace.begin(area_, replay_);
   }
 
+  /// After `figures`.
+  Discoveries discoveries() const;
+
   TruthFigures figures() {
     double looked_s = -1.0;
     for (const Look& look : looks_) {
@@ -81,25 +87,25 @@ class ReplayJudgement {
     const double look_s = std::min(look_s_max, 0.125 / server_.rate_hz);
     const double until_s = std::min(server_.until_s, server_.end_s);
     for (std::size_t i = 0; server_.from_s + static_cast<double>(i) * look_s <= until_s; ++i) looks_.push_back({server_.from_s + static_cast<double>(i) * look_s, Look::Kind::step, i});
+    for (std::size_t i = 0; replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i) looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
     for (std::size_t i = 0; i < server_.decisions.size(); ++i) looks_.push_back({server_.decisions[i].instant_s, Look::Kind::decision, i});
     for (std::size_t i = 0; i < bots_.samples.size(); ++i) {
       looks_.push_back({bots_.samples[i].displayed_s, Look::Kind::displayed, i});
       looks_.push_back({bots_.samples[i].matched_s, Look::Kind::matched, i});
     }
     std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= 0.0 && look.instant_s <= server_.end_s); });
-    for (std::size_t i = 0; replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i) looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
     std::stable_sort(looks_.begin(), looks_.end(), [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
   }
 
   void judge(const Look& look) {
     switch (look.kind) {
+      case Look::Kind::before: return;
       case Look::Kind::step: return judge_entries(look.instant_s);
       case Look::Kind::decision: return judge_decision(server_.decisions[look.index]);
       case Look::Kind::displayed: return judge_displayed(bots_.samples[look.index]);
       case Look::Kind::matched: return judge_matched(bots_.samples[look.index]);
     }
   }
-      case Look::Kind::before: return;
 
   bool is_present(const Player& player) const { return player.bat && replay_.is_there(*player.bat); }
 
@@ -197,7 +203,12 @@ class ReplayJudgement {
   void judge_contact(Player& player, std::uint32_t entity, double instant_s) {
     player.at_contacts.advance(instant_s);
     ++contacts_;
-    if (!player.at_contacts.contains(entity)) ++missed_contacts_;
+    if (player.at_contacts.contains(entity)) return;
+    ++missed_contacts_;
+    const auto is_discovery = [&](const ScopeStep& step) { return step.is_in && step.entity == entity && step.instant_s > instant_s; };
+    const auto discovered = std::ranges::find_if(player.steps, is_discovery);
+    if (discovered == player.steps.end()) missed_.add_never();
+    else missed_.add(discovered->instant_s - instant_s);
   }
 
   TruthFigures sums();
@@ -216,6 +227,7 @@ class ReplayJudgement {
   PositionErrors displayed_error_, matched_error_;
   std::uint64_t bytes_ = 0, wasted_bytes_ = 0, contacts_ = 0, missed_contacts_ = 0;
   double contacts_until_s_ = -1.0;
+  DiscoveryDelays missed_;
 };
 
 std::optional<double> ratio(double part, double whole) {
@@ -230,6 +242,17 @@ Percentiles ReplayJudgement::late_entries() {
     late_s.insert(late_s.end(), player.stays.lateness_s().begin(), player.stays.lateness_s().end());
   }
   return percentiles_ms(std::move(late_s));
+}
+
+Discoveries ReplayJudgement::discoveries() const {
+  Discoveries result;
+  if (!bots_.is_complete) return result;
+  for (const Player& player : players_) {
+    for (const double delay_s : player.stays.delivered_after_s()) result.late_discovery.add(delay_s);
+    for (std::uint64_t i = 0; i < player.stays.never_delivered(); ++i) result.late_discovery.add_never();
+  }
+  result.missed_contact = missed_;
+  return result;
 }
 
 TruthFigures ReplayJudgement::sums() {
@@ -259,7 +282,12 @@ TruthFigures ReplayJudgement::sums() {
 
 }  // namespace
 
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) { return ReplayJudgement(server, bots, area).figures(); }
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries) {
+  ReplayJudgement judgement(server, bots, area);
+  const TruthFigures figures = judgement.figures();
+  if (discoveries) *discoveries = judgement.discoveries();
+  return figures;
+}
 
 void write_trace(const std::string& file, const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) {
   TruthTrace trace(file);
@@ -285,9 +313,9 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 
 namespace {
 
-void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots) {
+void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots, Discoveries* discoveries = nullptr) {
   const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
-  TruthFigures figures = truth_of(server, bots, area);
+  TruthFigures figures = truth_of(server, bots, area, discoveries);
   figures.control_bytes_fraction = record.truth.control_bytes_fraction;
   figures.fairness_jain = record.truth.fairness_jain;
   record.truth = figures;
@@ -324,15 +352,21 @@ void add_truth(RunRecord& record, const Experiment& experiment, const game::Serv
   });
 }
 
-void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file) {
+void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file, const std::filesystem::path& discovery_file) {
+  std::optional<Discoveries> discoveries;
+  std::error_code ignored;
+  if (!discovery_file.empty()) std::filesystem::remove(discovery_file, ignored);  // of an earlier run
   record_trouble(record, [&] {
     const game::ServerEvidence server = game::read_server_evidence(server_file);
     record.truth.relevance = text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
     add_tick_costs(record, server);
     const BotsEvidence bots = read_bots_evidence(bots_file);
-    judge(record, experiment, server, bots);
+    Discoveries found;
+    judge(record, experiment, server, bots, &found);
+    if (bots.is_complete) discoveries = found;
     if (!bots.is_complete) record.truth.trouble = bots_file + ": " + too_many_changes;
   });
+  if (discoveries && !discovery_file.empty()) write_discoveries(discovery_file, *discoveries);
 }
 
 }  // namespace rink::loadgen

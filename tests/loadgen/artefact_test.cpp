@@ -82,6 +82,23 @@ TEST_F(ReportFolder, OfAnotherVersionOrNoneIsNamed) {
   EXPECT_EQ(run("compare --from " + file("nowhere")), 2);
 }
 
+/// Without the comments, of which the command line is one.
+TEST_F(ReportFolder, HasTheSameDelaysOfDiscoveryThoughItWasInterrupted) {
+  const auto lines = [this] {
+    const std::string all = content("first/discovery.csv");
+    return all.substr(all.find("\npart,mode"));
+  };
+  replace("small.toml", "duration_s = 0.5", "duration_s = 1.5");
+  ASSERT_EQ(make(), 0) << said_;
+  const std::string before = lines();
+  EXPECT_THAT(before, AllOf(HasSubstr(",none,"), HasSubstr(",region,"), HasSubstr(",late_discovery,")));
+  const std::string runs = content("first/runs.jsonl");
+  write("first/runs.jsonl", runs.substr(0, runs.rfind('\n', runs.size() - 2) + 1));
+  std::filesystem::remove(folder_ / "first/discovery.csv");
+  EXPECT_EQ(run("compare " + file("small.toml") + " --resume --out " + file("first")), 0) << said_;
+  EXPECT_EQ(lines(), before);
+}
+
 TEST_F(ReportFolder, WithARelevanceExpressionThatIsNoneEndsWithItsOwnStatus) {
   const std::string before = content("small.toml");
   write("small.toml", "relevance = 'filter'\nrelevant = 'aura and nott sight'\n" + before);

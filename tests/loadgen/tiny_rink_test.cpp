@@ -109,6 +109,26 @@ TEST_F(TinyRink, LateEntriesAndChurnFollowFromTheTimesOfArrival) {
   EXPECT_DOUBLE_EQ(*truth.flapping_fraction, 0.0);
 }
 
+/// It touches the square from 0.9 to 3.1 s.
+TEST_F(TinyRink, ALateDiscoveryTakesFromTheTrueEntryToTheFirstStateAndOneThatNeverCameIsCensored) {
+  Discoveries found;
+  const auto late = [&] {
+    truth_of(server_, bots_, {RelevanceArea::Shape::square, view_half_side}, &found);
+    return found.late_discovery;
+  };
+  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
+  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 0.0}, DiscoveryDelays::Point{350.0, 1.0}));
+  bots_.bots[0].changes.back().instant_s = 0.5;
+  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 1.0})) << "it was known before";
+  bots_.bots[0].changes.back().instant_s = 3.2;
+  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 0.0})) << "it had left";
+  EXPECT_EQ(found.late_discovery.never(), 1u);
+  EXPECT_EQ(found.late_discovery.samples(), 1u) << "what is beside the bat from the beginning entered at no known instant";
+  EXPECT_EQ(found.missed_contact.samples(), 0u);
+  bots_.is_complete = false;
+  EXPECT_EQ(late().samples(), 0u);
+}
+
 /// Within T = 0.2 s the bat, by two keys of 10 m/s^2, gets 14.14 T^2/2 = 0.283 m far, the puck 0.2 m: with the radii of their discs, 0.141 and 0.1 m,
 /// 0.724 m in all, which is their distance at 2 s -+ sqrt(0.724^2 - 0.5^2) s. The still one is too far for both.
 TEST_F(TinyRink, ByContactTheFlyingPuckIsRelevantWhileItAndTheBatCanMeet) {
@@ -124,6 +144,19 @@ TEST_F(TinyRink, ByContactTheFlyingPuckIsRelevantWhileItAndTheBatCanMeet) {
   EXPECT_DOUBLE_EQ(*truth.filter_recall, 1.0 / 2.0);
   EXPECT_NEAR(*truth.late_entry_ms.max, 1e3 * (1.75 - (2.0 - half_s)), 0.01);
   EXPECT_EQ(truth.relevance, "whoever can touch the bat within 0.2 s, or a puck that can");
+}
+
+/// An expression says that it is relevant, not how much: the entry at 0.9 s is dated by the look that found it, at most 4 ms later.
+TEST_F(TinyRink, ByAnExpressionAnEntryIsDatedByTheLookThatFoundIt) {
+  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
+  decide(0.89, {bat, still});
+  decide(0.91, {bat, still, flying});
+  const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
+  EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0);
+  EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0);
+  EXPECT_LE(*truth.late_entry_ms.max, 350.0 + 1e-6);
+  EXPECT_GE(*truth.late_entry_ms.max, 346.0 - 1e-6);
+  EXPECT_EQ(truth.relevance, "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
 }
 
 /// It leaves for half a second, then for longer than a second: one flap in three entries.
@@ -146,19 +179,6 @@ TEST_F(TinyRink, ErrorsAndWasteAreThoseOfWhatWasBelieved) {
     bots_.beliefs.push_back({.object = 100 + body, .bytes = bytes, .is_in_scope = true, .matched = matched, .displayed = displayed});
   };
   bots_.bots[0].changes.push_back({1.0, 100 + flying, true});
-/// An expression says that it is relevant, not how much: the entry at 0.9 s is dated by the look that found it, at most 4 ms later.
-TEST_F(TinyRink, ByAnExpressionAnEntryIsDatedByTheLookThatFoundIt) {
-  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
-  decide(0.89, {bat, still});
-  decide(0.91, {bat, still, flying});
-  const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
-  EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0);
-  EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0);
-  EXPECT_LE(*truth.late_entry_ms.max, 350.0 + 1e-6);
-  EXPECT_GE(*truth.late_entry_ms.max, 346.0 - 1e-6);
-  EXPECT_EQ(truth.relevance, "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
-}
-
   bots_.bots[0].changes.push_back({1.0, 100 + far, true});
   believe(bat, 1000, {0.0, 0.0}, {0.0, 0.0});     // the own bat counts nowhere
   believe(still, 10, {10.5, 10.5}, {10.5, 10.5});
@@ -181,11 +201,13 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   game.record_events(true);
   for (const game::InputEvent& key : server_.keys) game.submit(key);
   std::uint64_t contacts = 0, with_still = 0;
+  double first_with_still_s = 0.0;
   game.advance(server_.until_s - 1e-9);
   for (const physics::Event& impact : game.events()) {
     if (!physics::is_impact(impact.kind) || !impact.other || (impact.body.index != bat && impact.other->index != bat)) continue;
     ++contacts;
-    with_still += impact.body.index == still || impact.other->index == still ? 1u : 0u;
+    if (impact.body.index != still && impact.other->index != still) continue;
+    if (with_still++ == 0) first_with_still_s = impact.time;
   }
   game.advance(server_.end_s);
   server_.state_hash = game.hash();
@@ -194,6 +216,19 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   EXPECT_EQ(judged().missed_interactions, contacts - with_still);
   bots_.bots[0].changes.pop_back();  // never heard of the still puck
   EXPECT_EQ(judged().missed_interactions, contacts);
+
+  // Each contact with it before it is heard of is missed until then, all others for ever.
+  Discoveries found;
+  const auto of_square = RelevanceArea{RelevanceArea::Shape::square, view_half_side};
+  truth_of(server_, bots_, of_square, &found);
+  EXPECT_EQ(found.missed_contact.never(), contacts);
+  EXPECT_EQ(found.missed_contact.samples(), contacts);
+  const double heard_s = first_with_still_s + 0.25;
+  bots_.bots[0].changes.push_back({heard_s, 100 + still, true});
+  truth_of(server_, bots_, of_square, &found);
+  EXPECT_LT(found.missed_contact.never(), contacts);
+  EXPECT_EQ(found.missed_contact.samples(), judged().missed_interactions);
+  EXPECT_NEAR(found.missed_contact.distribution(200).back().delay_ms, 250.0, 1e-3) << "that of the first";
 }
 
 /// The bat is pushed into the puck again and again; only contacts from the beginning of the measured span up to its end count, that itself excluded.
