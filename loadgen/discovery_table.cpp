@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "game/version/version.h"
 #include "loadgen/csv_number.h"
 #include "loadgen/csv_text.h"
 #include "loadgen/parameter.h"
@@ -18,7 +19,7 @@ namespace {
 std::optional<Discoveries> read(const std::filesystem::path& file) {
   std::ifstream stream(file);
   const nlohmann::json written = nlohmann::json::parse(stream, nullptr, false);
-  if (!written.is_object() || !written.contains("late_discovery") || !written.contains("missed_contact")) return std::nullopt;
+  if (!written.is_object() || written.value("schema", nlohmann::json()) != game::report_schema || !written.contains("late_discovery") || !written.contains("missed_contact")) return std::nullopt;
   const auto late = DiscoveryDelays::from_json(written["late_discovery"]), missed = DiscoveryDelays::from_json(written["missed_contact"]);
   if (!late || !missed) return std::nullopt;
   return Discoveries{*late, *missed};
@@ -42,7 +43,7 @@ void append(std::string& csv, const std::string& names, const char* kind, const 
 std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell) { return cells / (name_of(cell) + ".discovery.json"); }
 
 void write_discoveries(const std::filesystem::path& file, const Discoveries& discoveries) {
-  const nlohmann::ordered_json content{{"late_discovery", discoveries.late_discovery.to_json()}, {"missed_contact", discoveries.missed_contact.to_json()}};
+  const nlohmann::ordered_json content{{"schema", game::report_schema}, {"late_discovery", discoveries.late_discovery.to_json()}, {"missed_contact", discoveries.missed_contact.to_json()}};
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content.dump() << '\n' << std::flush;
   if (!stream) throw OutputError(file.string() + ": cannot be written");

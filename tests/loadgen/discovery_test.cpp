@@ -103,6 +103,8 @@ TEST_F(DiscoveryTable, PoolsTheValidReplicationsOfACell) {
   runs_.back().valid = false;
   add("grid", 4, {});
   std::ofstream(discovery_file(folder_.path(), runs_.back().cell)) << "torn";
+  add("grid", 5, {});
+  std::ofstream(discovery_file(folder_.path(), runs_.back().cell)) << R"({"schema":2,"late_discovery":{"never":9,"delays_us":[]},"missed_contact":{"never":9,"delays_us":[]}})";
   const auto cells = discoveries_in(folder_.path(), runs_);
   ASSERT_EQ(cells.size(), 2u);
   const std::string csv = discovery_csv(cells), names = ",client-server,grid,periodic,10,0,0,1,";
