@@ -65,7 +65,9 @@ void FilterRelevance::match() {
   for (const im::Change& change : filter_->match()) {
     std::vector<std::uint32_t>& list = *relevant_[change.subscriber];
     const auto place = std::lower_bound(list.begin(), list.end(), change.entity);
-    if (change.transition == im::Transition::left) list.erase(place);
+    const bool is_listed = place != list.end() && *place == change.entity;
+    assert(is_listed == (change.transition == im::Transition::left));
+    if (is_listed) list.erase(place);
     else list.insert(place, change.entity);
   }
 }
