@@ -15,9 +15,10 @@ const char* name_of(RelevanceArea::Shape shape) {
   switch (shape) {
     case RelevanceArea::Shape::square: return "square";
     case RelevanceArea::Shape::disc: return "disc";
-    case RelevanceArea::Shape::contact: break;
+    case RelevanceArea::Shape::contact: return "contact";
+    case RelevanceArea::Shape::filter: break;
   }
-  return "contact";
+  return "filter";
 }
 
 }  // namespace
