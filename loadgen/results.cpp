@@ -15,7 +15,7 @@
 namespace rink::loadgen {
 namespace {
 
-constexpr std::array result_names{"runs.jsonl", "summary.csv", "comparisons.csv", "tidy.csv", "report.html"};
+constexpr std::array result_names{"runs.jsonl", "summary.csv", "comparisons.csv", "tidy.csv", "discovery.csv", "report.html"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
   throw OutputError(file.string() + ": cannot be written: " + (error != 0 ? std::strerror(error) : "unknown reason"));

@@ -99,6 +99,15 @@ TEST_F(ReportFolder, HasTheSameDelaysOfDiscoveryThoughItWasInterrupted) {
   EXPECT_EQ(lines(), before);
 }
 
+/// With `curves` no run leaves evidence.
+TEST_F(ReportFolder, KeepsNoDelaysOfDiscoveryOfAnotherExperiment) {
+  ASSERT_EQ(make(), 0) << said_;
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "first/discovery.csv"));
+  write("small.toml", content("small.toml") + "[[parts]]\nname = 'far'\ncurves = true\n");
+  EXPECT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --force"), 0) << said_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "first/discovery.csv"));
+}
+
 TEST_F(ReportFolder, WithARelevanceExpressionThatIsNoneEndsWithItsOwnStatus) {
   const std::string before = content("small.toml");
   write("small.toml", "relevance = 'filter'\nrelevant = 'aura and nott sight'\n" + before);
