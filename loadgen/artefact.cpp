@@ -12,6 +12,7 @@
 #include "game/model/byte_hash.h"
 #include "game/model/scene_file.h"
 #include "game/players/player.h"
+#include "game/model/report_schema.h"
 #include "game/version/version.h"
 
 namespace rink::loadgen {

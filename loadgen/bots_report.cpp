@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 
 namespace rink::loadgen {
 

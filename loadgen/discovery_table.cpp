@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 #include "loadgen/csv_number.h"
 #include "loadgen/csv_text.h"
 #include "loadgen/parameter.h"
@@ -19,10 +19,11 @@ namespace {
 std::optional<Discoveries> read(const std::filesystem::path& file) {
   std::ifstream stream(file);
   const nlohmann::json written = nlohmann::json::parse(stream, nullptr, false);
-  if (!written.is_object() || written.value("schema", nlohmann::json()) != game::report_schema || !written.contains("late_discovery") || !written.contains("missed_contact")) return std::nullopt;
-  const auto late = DiscoveryDelays::from_json(written["late_discovery"]), missed = DiscoveryDelays::from_json(written["missed_contact"]);
-  if (!late || !missed) return std::nullopt;
-  return Discoveries{*late, *missed};
+  if (!written.is_object() || written.value("schema", nlohmann::json()) != game::report_schema || !written.contains("late_discovery") || !written.contains("missed_contact") || !written.contains("displayed_error")) return std::nullopt;
+  const auto late = SampleDistribution::from_json(written["late_discovery"]), missed = SampleDistribution::from_json(written["missed_contact"]);
+  const auto errors = SampleDistribution::from_json(written["displayed_error"]);
+  if (!late || !missed || !errors) return std::nullopt;
+  return Discoveries{*late, *missed, *errors};
 }
 
 std::string names_of(const Cell& cell) {
@@ -33,9 +34,9 @@ std::string names_of(const Cell& cell) {
   return names;
 }
 
-void append(std::string& csv, const std::string& names, const char* kind, const DiscoveryDelays& delays) {
-  for (const DiscoveryDelays::Point& point : delays.distribution(discovery_points_max))
-    csv += names + kind + "," + csv_number(point.delay_ms) + "," + csv_number(point.fraction) + "," + std::to_string(delays.samples()) + "," + std::to_string(delays.never()) + "\n";
+void append(std::string& csv, const std::string& names, const char* kind, const SampleDistribution& delays) {
+  for (const SampleDistribution::Point& point : delays.distribution(discovery_points_max))
+    csv += names + kind + "," + csv_number(point.thousandths) + "," + csv_number(point.fraction) + "," + std::to_string(delays.samples()) + "," + std::to_string(delays.never()) + "\n";
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ void append(std::string& csv, const std::string& names, const char* kind, const 
 std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell) { return cells / (name_of(cell) + ".discovery.json"); }
 
 void write_discoveries(const std::filesystem::path& file, const Discoveries& discoveries) {
-  const nlohmann::ordered_json content{{"schema", game::report_schema}, {"late_discovery", discoveries.late_discovery.to_json()}, {"missed_contact", discoveries.missed_contact.to_json()}};
+  const nlohmann::ordered_json content{{"schema", game::report_schema}, {"late_discovery", discoveries.late_discovery.to_json()}, {"missed_contact", discoveries.missed_contact.to_json()},
+                                         {"displayed_error", discoveries.displayed_error.to_json()}};
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content.dump() << '\n' << std::flush;
   if (!stream) throw OutputError(file.string() + ": cannot be written");

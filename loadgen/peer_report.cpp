@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 #include "loadgen/peer_station.h"
 
 namespace rink::loadgen {

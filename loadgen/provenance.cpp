@@ -16,6 +16,7 @@
 #include <sstream>
 #include <thread>
 
+#include "game/model/report_schema.h"
 #include "game/version/version.h"
 #include "loadgen/machine.h"
 #include "loadgen/process.h"

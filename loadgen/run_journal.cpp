@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "game/model/byte_hash.h"
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 #include "loadgen/results.h"
 #include "loadgen/run_fields.h"
 

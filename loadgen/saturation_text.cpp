@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 #include "loadgen/csv_number.h"
 #include "loadgen/parameter.h"
 #include "loadgen/saturate_command.h"

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "game/version/version.h"
+#include "game/model/report_schema.h"
 
 namespace rink::game {
 

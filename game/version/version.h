@@ -5,9 +5,6 @@
 
 namespace rink::game {
 
-/// Of the JSON that commands write for programs (its `schema`). It rises when a field goes or means something else, not when one is added.
-inline constexpr int report_schema = 1;
-
 /// The commit that was built, abbreviated, followed by `+changes` if tracked files had been changed
 /// since; "unknown" if built without git.
 const char* built_commit();

@@ -14,7 +14,7 @@ double sum_of(const BarPlot::Bar& bar) {
   return sum;
 }
 
-std::string part_class(std::size_t part) { return "p" + std::to_string(part % 3); }
+std::string part_class(std::size_t part) { return "p" + std::to_string(part % 4); }
 
 std::string svg_bar(const BarPlot& plot, const BarPlot::Bar& bar, const Axis& y, double middle, double width) {
   std::string svg;

@@ -9,7 +9,7 @@
 
 namespace rink::loadgen {
 
-/// Bars whose parts are stacked in the order of `part_names` (the page's classes p0 to p2), each bar named below.
+/// Bars whose parts are stacked in the order of `part_names` (the page's classes p0 to p3), each bar named below.
 struct BarPlot {
   struct Bar {
     std::string name;

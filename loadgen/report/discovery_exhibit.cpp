@@ -13,7 +13,7 @@ namespace {
 
 struct Discovered {
   const char *name, *title, *meaning, *none;
-  DiscoveryDelays Discoveries::*of;
+  SampleDistribution Discoveries::*of;
 };
 
 constexpr Discovered discovered_kinds[] = {
@@ -26,8 +26,8 @@ constexpr Discovered discovered_kinds[] = {
 struct DrawnDelays {
   CellLine line;
   CellGroup group;
-  const DiscoveryDelays* delays;
-  std::vector<DiscoveryDelays::Point> points;
+  const SampleDistribution* delays;
+  std::vector<SampleDistribution::Point> points;
 };
 
 std::vector<DrawnDelays> drawn_of(const Findings& findings, const Discovered& kind) {
@@ -39,7 +39,7 @@ std::vector<DrawnDelays> drawn_of(const Findings& findings, const Discovered& ki
       if (group.cell.clients != counts.back()) continue;
       const auto found = std::ranges::find(findings.discoveries, without_seed(group.cell), &CellDiscoveries::cell);
       if (found == findings.discoveries.end()) continue;
-      const DiscoveryDelays& delays = found->discoveries.*kind.of;
+      const SampleDistribution& delays = found->discoveries.*kind.of;
       if (delays.samples() > 0) all.push_back({line, group, &delays, delays.distribution(discovery_points_max)});
     }
   return all;
@@ -73,9 +73,9 @@ void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind
   constexpr double least_ms = 1.0;
   double low = 1e9, high = 10.0 * least_ms;
   for (const DrawnDelays& each : drawn)
-    for (const DiscoveryDelays::Point& point : each.points) {
-      if (point.delay_ms > 0.0) low = std::min(low, std::max(least_ms, point.delay_ms));
-      high = std::max(high, 1.2 * point.delay_ms);
+    for (const SampleDistribution::Point& point : each.points) {
+      if (point.thousandths > 0.0) low = std::min(low, std::max(least_ms, point.thousandths));
+      high = std::max(high, 1.2 * point.thousandths);
     }
   low = std::min(0.9 * low, 0.1 * high);
   const std::uint32_t clients = drawn.front().group.cell.clients;
@@ -88,9 +88,9 @@ void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind
     const std::size_t last = points.size();
     never += (never.empty() ? "" : ", ") + each.line.name + " " + std::to_string(each.delays->never()) + " of " + std::to_string(each.delays->samples());
     plot.lines.push_back({each.line.name, each.line.style, std::move(points), last});
-    for (const DiscoveryDelays::Point& point : each.points) {
+    for (const SampleDistribution::Point& point : each.points) {
       auto row = cell_values(each.line, each.group);
-      for (const std::string& text : {exact_number(point.delay_ms), exact_number(point.fraction), std::to_string(each.delays->samples()), std::to_string(each.delays->never())}) row.push_back(text);
+      for (const std::string& text : {exact_number(point.thousandths), exact_number(point.fraction), std::to_string(each.delays->samples()), std::to_string(each.delays->never())}) row.push_back(text);
       table.rows.push_back(std::move(row));
     }
   }

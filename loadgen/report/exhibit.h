@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "loadgen/discovery_table.h"
@@ -54,6 +55,18 @@ std::vector<CellLine> plotted_lines(const Findings& findings);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
 
+/// Of `lines` the largest number of clients alone; and that this was done, in words, empty if there is but one number.
+std::vector<CellLine> largest_crowds(std::vector<CellLine> lines);
+std::string largest_crowd_words(const Findings& findings);
+/// The range of a linear axis that shows data between `low` and `high`, both at least 0, with a little room, from 0 on.
+std::pair<double, double> zoomed(double low, double high);
+
+/// Bytes by what they are about, stacked.
+Exhibit bytes_by_kind_exhibit(const Findings& findings);
+/// The displayed error's distribution function; nothing if no run left one.
+void add_error_distribution(Exhibit& exhibit, const Findings& findings);
+/// Recall by the delay of parts that are otherwise alike; nothing if there are no such parts.
+void add_recall_against_delay(Exhibit& exhibit, const Findings& findings);
 /// Bytes against clients.
 Exhibit traffic_exhibit(const Findings& findings);
 /// What each node bears with a server and without, and what its bytes are about.

@@ -16,7 +16,7 @@ void add_scatter(Exhibit& exhibit, const Findings& findings) {
   LinePlot plot{"Payload against displayed error", "displayed error, RMS [mm]", "bytes per second and client", "", true, true, {}, {}, {}, {}, {}};
   PlotTable table{"bytes-against-error", "Payload to each client beside the error of displayed positions: means over replications with their 95 % intervals", cell_columns()};
   table.columns.insert(table.columns.end(), {"displayed_error_mm_rms", "error_low_95", "error_high_95", "bytes_per_client_per_s", "bytes_low_95", "bytes_high_95"});
-  for (const CellLine& line : plotted_lines(findings)) {
+  for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto bytes = group.mean(payload), error = group.mean(displayed_rms);
@@ -31,8 +31,7 @@ void add_scatter(Exhibit& exhibit, const Findings& findings) {
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
   if (!has_points(plot)) return exhibit.add_absence("No run has a displayed error, so bytes cannot be drawn against it.");
-  plot.alternative = "Lower left is better: fewer bytes and smaller error. Lines join the client counts of one filter and policy. Entities that a client was never told of have no error "
-                     "here: read recall beside it.";
+  plot.alternative = "Lower left is better: fewer bytes and smaller error. Entities that a client was never told of have no error here: read recall beside it." + largest_crowd_words(findings);
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
@@ -105,6 +104,7 @@ void add_gains(Exhibit& exhibit, const Findings& findings) {
 Exhibit gains_exhibit(const Findings& findings) {
   Exhibit exhibit{"<div class=\"plots\">\n"};
   add_scatter(exhibit, findings);
+  add_error_distribution(exhibit, findings);
   exhibit.html += "</div>\n";
   add_gains(exhibit, findings);
   return exhibit;

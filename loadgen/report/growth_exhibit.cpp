@@ -1,5 +1,6 @@
 // How a tick's cost grows with clients, pucks and bats, and where the server saturates.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -46,6 +47,25 @@ std::string sweep_name(const GrowthFactor& factor, const Sweep& sweep, bool name
   return name + (sweep.cell.server_cores > 1 ? ", 2 cores" : "");
 }
 
+/// The law that fits better, from the first value to the last.
+ReferenceCurve fit_of(const Sweep& sweep) {
+  std::vector<FitPoint> points;
+  for (const auto& [value, costs] : sweep.costs)
+    for (const double cost : costs) points.push_back({static_cast<double>(value), cost});
+  const auto line = fit_line(points);
+  const auto power = fit_power(points);
+  if (!line || !power) return {};
+  const bool is_line = line->log_residual < log_residual(*power, points);
+  ReferenceCurve curve{is_line ? plain_number(line->constant) + " + " + plain_number(line->slope) + " n" : plain_number(power->factor) + " n^" + plain_number(power->exponent), {}};
+  constexpr int steps = 40;
+  const double first = sweep.costs.begin()->first, last = sweep.costs.rbegin()->first;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = first * std::pow(last / first, static_cast<double>(i) / steps);
+    curve.points.emplace_back(x, is_line ? line->at(x) : power->factor * std::pow(x, power->exponent));
+  }
+  return curve;
+}
+
 void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& factor) {
   const auto sweeps = sweeps_over(factor, findings.runs);
   if (sweeps.empty()) return;
@@ -54,6 +74,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
   LinePlot plot{std::string("Cost of a tick against ") + factor.name, factor.name, "us per tick, all parts", "", true, true, {}, {}, {}, {}, {}};
   PlotTable table{std::string("growth-over-") + factor.name, "Physics, filter and send together per tick: mean over replications and its 95 % interval",
                   {"line", factor.name, "total_us_per_tick", "low_95", "high_95"}};
+  std::vector<ReferenceCurve> fits;
   std::vector<std::string> schemes, policies;
   const auto place = [](std::vector<std::string>& seen, const std::string& text) {
     const auto found = std::find(seen.begin(), seen.end(), text);
@@ -69,8 +90,11 @@ void add_plot(Exhibit& exhibit, const Findings& findings, const GrowthFactor& fa
       append_interval(table.rows.back(), mean);
     }
     plot.lines.push_back(std::move(line));
+    fits.push_back(fit_of(sweep));
   }
-  plot.alternative = std::string("On these axes a power law is a straight line and its slope the exponent: twice the ") + factor.name + " cost 2 to the exponent times as much. Bars: 95 % intervals.";
+  for (const ReferenceCurve& fit : fits)
+    if (!fit.points.empty()) plot.references.push_back(fit);
+  plot.alternative = std::string("On these axes a power law is a straight line and its slope the exponent: twice the ") + factor.name + " cost 2 to the exponent times as much. Bars: 95 % intervals; faint: the better of a constant with a proportional part and a power law, through all replications.";
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 

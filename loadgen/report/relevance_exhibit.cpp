@@ -21,17 +21,19 @@ ReferenceCurve equal_score(double score) {
 }
 
 void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall, const std::string& name, const std::string& title) {
-  LinePlot plot{title, "recall", "precision", "", false, false, {}, {}, {}, {{0.0, 1.04}}, {{0.0, 1.04}}};
+  LinePlot plot{title, "recall", "precision", "", false, false, {}, {}, {}, {}, {}};
   for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9}) plot.references.push_back(equal_score(score));
   PlotTable table{name, title + ": means over replications with their 95 % intervals", cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95", "precision", "precision_low_95", "precision_high_95"});
-  for (const CellLine& line : plotted_lines(findings)) {
+  double low_recall = 1.0, low_precision = 1.0;
+  for (const CellLine& line : largest_crowds(plotted_lines(findings))) {
     PlotLine drawn{line.name, line.style, {}};
     for (const CellGroup& group : line.groups) {
       const auto p = group.mean(precision), r = group.mean(recall);
       if (!p || !r) continue;
       drawn.points.push_back({r->mean, p->mean, p->interval, r->interval,
                               line.name + ", " + std::to_string(group.cell.clients) + " clients: recall " + plain_number(r->mean, 4) + ", precision " + plain_number(p->mean, 4)});
+      low_recall = std::min({low_recall, r->mean, r->interval ? r->interval->first : 1.0}), low_precision = std::min({low_precision, p->mean, p->interval ? p->interval->first : 1.0});
       auto row = cell_values(line, group);
       append_interval(row, r);
       append_interval(row, p);
@@ -40,9 +42,10 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));
   }
   if (!has_points(plot)) return exhibit.add_absence(title + ": no run was held against truth in this, so there is no plot.");
+  plot.x_range = zoomed(low_recall, 1.0), plot.y_range = zoomed(low_precision, 1.0);
   plot.alternative =
-      "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. Lines join the client counts of one filter; faint curves join points of "
-      "equal F1, the harmonic mean of both.";
+      "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. Faint curves join points of equal F1, the harmonic mean of both. The axes show where the data are: recall from " +
+      plain_number(plot.x_range->first, 4) + ", precision from " + plain_number(plot.y_range->first, 4) + " on." + largest_crowd_words(findings);
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
 }
 
@@ -110,6 +113,7 @@ Exhibit relevance_exhibit(const Findings& findings) {
   add_plot(exhibit, findings, filter_precision, filter_recall, "precision-recall-filter", "The filter's decisions");
   add_plot(exhibit, findings, delivered_precision, delivered_recall, "precision-recall-delivered", "What clients held");
   add_bytes_against_relevance(exhibit, findings);
+  add_recall_against_delay(exhibit, findings);
   exhibit.html += "</div>\n";
   add_quality_table(exhibit, findings);
   return exhibit;

@@ -6,13 +6,13 @@
 namespace rink::loadgen {
 
 /// CSS. Line colours are Okabe and Ito's colour-blind-safe set (2008), darkened for white paper and lightened for the dark page; s0 to s7 are lines, d0 to d3
-/// dashes, p0 to p2 the parts of a bar.
-inline constexpr const char* light_colours = R"css(--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--link:#0b5cad;--s0:#0072b2;--s1:#c24e00;--s2:#007a58;--s3:#b3498a;--s4:#8a5d00;--s5:#5b6470;--s6:#6a51a3;--s7:#1b1f24;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9)css";
+/// dashes, p0 to p3 the parts of a bar.
+inline constexpr const char* light_colours = R"css(--ink:#1b1f24;--faint:#59636e;--paper:#fff;--card:#f6f8fa;--grid:#dfe3e8;--warn:#b3261e;--link:#0b5cad;--s0:#0072b2;--s1:#c24e00;--s2:#007a58;--s3:#b3498a;--s4:#8a5d00;--s5:#5b6470;--s6:#6a51a3;--s7:#1b1f24;--p0:#8a94a0;--p1:#e69f00;--p2:#56b4e9;--p3:#b3498a)css";
 
 /// What the page has above its pictures' rules: colours in the dark, texts and boxes.
 inline constexpr const char* page_style = R"css(
 @media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ec;--faint:#9aa4af;--paper:#14171a;--card:#1c2126;--grid:#30363d;--warn:#ff8a80;
---link:#7fbcf5;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#b4bcc6;--s6:#b9a3ea;--s7:#f4f4f4;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9}}
+--link:#7fbcf5;--s0:#56b4e9;--s1:#ff8a3d;--s2:#2fc79a;--s3:#e08cc0;--s4:#f0c040;--s5:#b4bcc6;--s6:#b9a3ea;--s7:#f4f4f4;--p0:#7d8793;--p1:#e69f00;--p2:#56b4e9;--p3:#e08cc0}}
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:80rem;padding:1.5rem;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,sans-serif}
 h1{font-size:1.6rem;line-height:1.25;margin:0 0 .4rem;overflow-wrap:anywhere}h2{font-size:1.2rem;margin:2.2rem 0 .5rem}h3{font-size:1rem;margin:1.2rem 0 .3rem}
@@ -40,7 +40,7 @@ text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-
 .mark.s0,.dot.s0,.box.s0{fill:var(--s0)}.mark.s1,.dot.s1,.box.s1{fill:var(--s1)}.mark.s2,.dot.s2,.box.s2{fill:var(--s2)}
 .mark.s3,.dot.s3,.box.s3{fill:var(--s3)}.mark.s4,.dot.s4,.box.s4{fill:var(--s4)}.mark.s5,.dot.s5,.box.s5{fill:var(--s5)}
 .mark.s6,.dot.s6,.box.s6{fill:var(--s6)}.mark.s7,.dot.s7,.box.s7{fill:var(--s7)}
-.bar{stroke:none}.p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}
+.bar{stroke:none}.p0{fill:var(--p0)}.p1{fill:var(--p1)}.p2{fill:var(--p2)}.p3{fill:var(--p3)}
 )css";
 
 /// And what it has below: tables, and how it prints.

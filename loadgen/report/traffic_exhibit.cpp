@@ -57,6 +57,7 @@ Exhibit traffic_exhibit(const Findings& findings) {
   add_plot(exhibit, findings, on_the_wire, "wire-against-clients", "On the wire for each client",
            "Both directions with headers: what a client's link carries. Lines come closer where headers outweigh payload.");
   exhibit.html += "</div>\n";
+  exhibit.add(bytes_by_kind_exhibit(findings));
   return exhibit;
 }
 

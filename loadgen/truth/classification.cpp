@@ -62,6 +62,12 @@ ErrorFigures PositionErrors::figures() {
   return figures;
 }
 
+std::vector<double> PositionErrors::distances() const {
+  std::vector<double> all;
+  for (const double square : squares_) all.push_back(std::sqrt(square));
+  return all;
+}
+
 Percentiles percentiles_ms(std::vector<double> durations_s) { return percentiles_in(std::move(durations_s), 1e3); }
 Percentiles percentiles_us(std::vector<double> durations_s) { return percentiles_in(std::move(durations_s), 1e6); }
 

@@ -31,6 +31,8 @@ class PositionErrors {
   /// Percentiles only if ten lie beyond them (see Histogram).
   ErrorFigures figures();
   std::size_t count() const { return squares_.size(); }
+  /// [m], without those put back, in no order.
+  std::vector<double> distances() const;
 
  private:
   std::vector<double> squares_;

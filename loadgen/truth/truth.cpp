@@ -227,7 +227,7 @@ class ReplayJudgement {
   PositionErrors displayed_error_, matched_error_;
   std::uint64_t bytes_ = 0, wasted_bytes_ = 0, contacts_ = 0, missed_contacts_ = 0;
   double contacts_until_s_ = -1.0;
-  DiscoveryDelays missed_;
+  SampleDistribution missed_;
 };
 
 std::optional<double> ratio(double part, double whole) {
@@ -252,6 +252,7 @@ Discoveries ReplayJudgement::discoveries() const {
     for (std::uint64_t i = 0; i < player.stays.never_delivered(); ++i) result.late_discovery.add_never();
   }
   result.missed_contact = missed_;
+  for (const double distance_m : displayed_error_.distances()) result.displayed_error.add(distance_m);
   return result;
 }
 

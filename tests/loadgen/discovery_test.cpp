@@ -22,18 +22,18 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-using Point = DiscoveryDelays::Point;
+using Point = SampleDistribution::Point;
 
 /// 1, 2, ... `ended` ms, and `never` without an end.
-DiscoveryDelays evenly(std::uint64_t ended, std::uint64_t never) {
-  DiscoveryDelays delays;
+SampleDistribution evenly(std::uint64_t ended, std::uint64_t never) {
+  SampleDistribution delays;
   for (std::uint64_t i = ended; i > 0; --i) delays.add(1e-3 * static_cast<double>(i));
   for (std::uint64_t i = 0; i < never; ++i) delays.add_never();
   return delays;
 }
 
-TEST(DiscoveryDelays, AFewAreAllInTheDistribution) {
-  DiscoveryDelays delays;
+TEST(SampleDistribution, AFewAreAllInTheDistribution) {
+  SampleDistribution delays;
   for (const double delay_s : {0.005, 0.0, 0.0, 0.0051, 0.005}) delays.add(delay_s);
   delays.add_never(), delays.add_never(), delays.add_never();
   EXPECT_EQ(delays.samples(), 8u);
@@ -41,9 +41,9 @@ TEST(DiscoveryDelays, AFewAreAllInTheDistribution) {
 }
 
 /// Of n delays evenly spread over n ms the part below d ms is d / (n + never).
-TEST(DiscoveryDelays, ManyGiveABoundedNumberOfPointsEachOfWhichIsExact) {
+TEST(SampleDistribution, ManyGiveABoundedNumberOfPointsEachOfWhichIsExact) {
   for (const std::uint64_t ended : {150u, 198u, 199u, 1000u, 54321u}) {
-    const DiscoveryDelays delays = evenly(ended, 250);
+    const SampleDistribution delays = evenly(ended, 250);
     const std::vector<Point> points = delays.distribution(200);
     ASSERT_LE(points.size(), 200u) << ended;
     EXPECT_GE(points.size(), std::min<std::size_t>(100, ended)) << ended;
@@ -51,35 +51,35 @@ TEST(DiscoveryDelays, ManyGiveABoundedNumberOfPointsEachOfWhichIsExact) {
     const double all = static_cast<double>(ended + 250);
     double before = -1.0;
     for (const Point& point : points) {
-      EXPECT_NEAR(point.fraction, point.delay_ms / all, 1e-12) << ended;
+      EXPECT_NEAR(point.fraction, point.thousandths / all, 1e-12) << ended;
       EXPECT_GT(point.fraction, before);
       before = point.fraction;
     }
-    EXPECT_DOUBLE_EQ(points.back().delay_ms, static_cast<double>(ended));
+    EXPECT_DOUBLE_EQ(points.back().thousandths, static_cast<double>(ended));
     EXPECT_DOUBLE_EQ(points.back().fraction, 1.0 - static_cast<double>(delays.never()) / static_cast<double>(delays.samples()));
   }
 }
 
-TEST(DiscoveryDelays, WhatNeverCameKeepsTheDistributionAtNothing) {
+TEST(SampleDistribution, WhatNeverCameKeepsTheDistributionAtNothing) {
   EXPECT_THAT(evenly(0, 3).distribution(200), ElementsAre(Point{0.0, 0.0}));
-  EXPECT_TRUE(DiscoveryDelays().distribution(200).empty());
+  EXPECT_TRUE(SampleDistribution().distribution(200).empty());
 }
 
-TEST(DiscoveryDelays, OfSeveralRunsAreThoseOfAllTogether) {
-  DiscoveryDelays together = evenly(10, 1);
+TEST(SampleDistribution, OfSeveralRunsAreThoseOfAllTogether) {
+  SampleDistribution together = evenly(10, 1);
   together.merge(evenly(20, 2));
   EXPECT_EQ(together.samples(), 33u);
   EXPECT_EQ(together.never(), 3u);
   EXPECT_EQ(together.distribution(200).at(10), (Point{10.0, 20.0 / 33.0})) << "each of the first ten twice";
 }
 
-TEST(DiscoveryDelays, ReadBackAsTheyWereWrittenAndNothingElseIsTaken) {
-  const DiscoveryDelays delays = evenly(7, 2);
+TEST(SampleDistribution, ReadBackAsTheyWereWrittenAndNothingElseIsTaken) {
+  const SampleDistribution delays = evenly(7, 2);
   const std::string text = delays.to_json().dump();
-  EXPECT_EQ(DiscoveryDelays::from_json(nlohmann::json::parse(text)), delays);
-  for (const char* wrong : {"[]", "{}", R"({"never":0})", R"({"never":-1,"delays_us":[]})", R"({"never":0,"delays_us":[[1]]})", R"({"never":0,"delays_us":[[1,0]]})", R"({"never":0,"delays_us":[[2,1],[1,1]]})",
-                            R"({"never":0,"delays_us":[[2,1],[2,1]]})", R"({"never":0,"delays_us":[[1.5,1]]})", R"({"never":0,"delays_us":3})"})
-    EXPECT_FALSE(DiscoveryDelays::from_json(nlohmann::json::parse(wrong))) << wrong;
+  EXPECT_EQ(SampleDistribution::from_json(nlohmann::json::parse(text)), delays);
+  for (const char* wrong : {"[]", "{}", R"({"never":0})", R"({"never":-1,"millionths":[]})", R"({"never":0,"millionths":[[1]]})", R"({"never":0,"millionths":[[1,0]]})", R"({"never":0,"millionths":[[2,1],[1,1]]})",
+                            R"({"never":0,"millionths":[[2,1],[2,1]]})", R"({"never":0,"millionths":[[1.5,1]]})", R"({"never":0,"millionths":3})"})
+    EXPECT_FALSE(SampleDistribution::from_json(nlohmann::json::parse(wrong))) << wrong;
 }
 
 class DiscoveryTable : public testing::Test {
@@ -104,7 +104,7 @@ TEST_F(DiscoveryTable, PoolsTheValidReplicationsOfACell) {
   add("grid", 4, {});
   std::ofstream(discovery_file(folder_.path(), runs_.back().cell)) << "torn";
   add("grid", 5, {});
-  std::ofstream(discovery_file(folder_.path(), runs_.back().cell)) << R"({"schema":2,"late_discovery":{"never":9,"delays_us":[]},"missed_contact":{"never":9,"delays_us":[]}})";
+  std::ofstream(discovery_file(folder_.path(), runs_.back().cell)) << R"({"schema":2,"late_discovery":{"never":9,"millionths":[]},"missed_contact":{"never":9,"millionths":[]}})";
   const auto cells = discoveries_in(folder_.path(), runs_);
   ASSERT_EQ(cells.size(), 2u);
   const std::string csv = discovery_csv(cells), names = ",client-server,grid,periodic,10,0,0,1,";

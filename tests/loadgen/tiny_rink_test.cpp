@@ -117,11 +117,11 @@ TEST_F(TinyRink, ALateDiscoveryTakesFromTheTrueEntryToTheFirstStateAndOneThatNev
     return found.late_discovery;
   };
   bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
-  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 0.0}, DiscoveryDelays::Point{350.0, 1.0}));
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0}, SampleDistribution::Point{350.0, 1.0}));
   bots_.bots[0].changes.back().instant_s = 0.5;
-  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 1.0})) << "it was known before";
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 1.0})) << "it was known before";
   bots_.bots[0].changes.back().instant_s = 3.2;
-  EXPECT_THAT(late().distribution(200), ElementsAre(DiscoveryDelays::Point{0.0, 0.0})) << "it had left";
+  EXPECT_THAT(late().distribution(200), ElementsAre(SampleDistribution::Point{0.0, 0.0})) << "it had left";
   EXPECT_EQ(found.late_discovery.never(), 1u);
   EXPECT_EQ(found.late_discovery.samples(), 1u) << "what is beside the bat from the beginning entered at no known instant";
   EXPECT_EQ(found.missed_contact.samples(), 0u);
@@ -228,7 +228,7 @@ TEST_F(TinyRink, AContactWithABodyThatThePlayerDoesNotKnowIsMissed) {
   truth_of(server_, bots_, of_square, &found);
   EXPECT_LT(found.missed_contact.never(), contacts);
   EXPECT_EQ(found.missed_contact.samples(), judged().missed_interactions);
-  EXPECT_NEAR(found.missed_contact.distribution(200).back().delay_ms, 250.0, 1e-3) << "that of the first";
+  EXPECT_NEAR(found.missed_contact.distribution(200).back().thousandths, 250.0, 1e-3) << "that of the first";
 }
 
 /// The bat is pushed into the puck again and again; only contacts from the beginning of the measured span up to its end count, that itself excluded.
