@@ -18,6 +18,8 @@ inline physics::Vector2 direction(const KeysHeld& keys) {
 class BatController {
  public:
   explicit BatController(double thrust) : thrust_(thrust) {}
+  /// Hands that hold `keys` after so many inputs.
+  BatController(double thrust, const KeysHeld& keys, std::uint32_t input_count) : thrust_(thrust), keys_(keys), input_count_(input_count) {}
 
   /// Counts the input, whether or not it changes anything: a key that is down may be pressed again.
   void press(Key key, bool is_down) {

@@ -101,6 +101,7 @@ class Game {
   std::uint64_t hash() const;
 
  private:
+  friend class GameState;  // saves and restores it
   Game(const Game& other);
 
   struct Seat {

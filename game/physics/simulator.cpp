@@ -103,6 +103,8 @@ std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec, const Simulator
   return std::make_unique<paper::PaperSimulator>(spec, integrator, choice.dt, choice.has_sharp_corners ? paper::Corners::sharp : paper::Corners::rounded);
 }
 
+std::unique_ptr<Simulator> exact_simulator(World world) { return std::make_unique<ExactSimulator>(std::move(world)); }
+
 std::uint32_t escape_count(const Simulator& simulator) {
   const Field& field = simulator.spec().field;
   std::uint32_t count = 0;

@@ -81,6 +81,9 @@ std::optional<std::string> objection(const SimulatorChoice& choice);
 /// An engine without bodies. There must be no objection (asserted).
 std::unique_ptr<Simulator> make_simulator(const WorldSpec& spec, const SimulatorChoice& choice = {});
 
+/// The exact engine, going on from `world`.
+std::unique_ptr<Simulator> exact_simulator(World world);
+
 /// Bodies in play that are where none can be: centre outside the field, or not a number.
 std::uint32_t escape_count(const Simulator& simulator);
 
