@@ -52,6 +52,7 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
   for (const game::InputEvent& event : plan) {
     const bool is_key = event.kind == game::InputKind::key_down || event.kind == game::InputKind::key_up;
     if (!is_key || event.player < settings.first || event.player - settings.first >= count || event.time >= settings.duration_s) continue;
+    if (settings.start_s > 0.0 && event.time <= settings.start_s) continue;
     plan_.push_back({event.time, event.player - settings.first, {event.key, event.kind == game::InputKind::key_down}});
   }
 }

@@ -29,6 +29,7 @@ struct BotCrowdSettings {
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.0; ///< see game::ClientSettings
   bool declares_regions = true; ///< likewise
   bool extrapolates = true;    ///< likewise
+  double start_s = 0.0;        ///< simulated time at which the game begins: what the plan says up to then has been pressed
   double warm_up_s = 0.0;      ///< simulated time from which on things are counted
   double duration_s = 10.0;    ///< simulated time at which the bots stop
   LivePlayers players{};       ///< unless they are random, they decide for themselves and the plan is not looked at

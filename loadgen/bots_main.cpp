@@ -39,7 +39,7 @@ struct Options {
   bool declares_regions = true, extrapolates = true;
   std::uint32_t count = 1, first = 0;
   std::uint64_t seed = 1;
-  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
+  double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0, warm_up_s = 0.0, patience_s = 30.0;
 };
 
 double now_s() { return 1e-9 * static_cast<double>(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count()); }
@@ -108,6 +108,9 @@ void add_options(CLI::App& app, Options& options) {
                "whether bots declare their views as regions, or subscribe to everything: under none, which looks at no places, that is the same for less")
       ->capture_default_str();
   app.add_flag("--extrapolate,!--no-extrapolate", options.extrapolates, "whether what is told positions alone (periodic) is believed ahead of the last by the velocity between the last two, or there")->capture_default_str();
+  app.add_option("--start", options.start_s, "simulated seconds of the saved game from which the server begins: keys up to then have been pressed, and --duration and --warm-up count from there")
+      ->check(game::number_from(0.0, game::seconds_max))
+      ->capture_default_str();
   app.add_option("--duration", options.duration_s, "simulated seconds to play")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
   app.add_option("--warm-up", options.warm_up_s, "simulated seconds before anything is measured")->check(game::number_from(0.0, game::seconds_max))->capture_default_str();
   app.add_option("--patience", options.patience_s, "seconds to wait for the start")->check(game::number_from(0.001, game::seconds_max))->capture_default_str();
@@ -118,7 +121,7 @@ void add_options(CLI::App& app, Options& options) {
 std::vector<game::InputEvent> plan_of(const Options& options) {
   if (options.players != "random") return {};
   if (!options.plan.empty()) return game::read_key_log(options.plan).events;
-  return game::random_plan(options.seed, options.first + options.count, options.duration_s);
+  return game::random_plan(options.seed, options.first + options.count, options.start_s + options.duration_s);
 }
 
 loadgen::LivePlayers players_of(const Options& options) {
@@ -174,8 +177,9 @@ game::ExitStatus play(const Options& options) {
                                            .view_margin = options.view_margin,
                                            .declares_regions = options.declares_regions,
                                            .extrapolates = options.extrapolates,
-                                           .warm_up_s = options.warm_up_s,
-                                           .duration_s = options.duration_s,
+                                           .start_s = options.start_s,
+                                           .warm_up_s = options.start_s + options.warm_up_s,
+                                           .duration_s = options.start_s + options.duration_s,
                                            .players = players_of(options)};
   game::Gate gate(transport.get(), {.key_file = options.key_file, .role = rti::Role::federate, .federation = file.federation}, now_s);
   loadgen::BotCrowd crowd(fom, gate.transport(), settings, options.count, plan, now_s);

@@ -18,12 +18,14 @@
 namespace rink::loadgen {
 namespace {
 
-/// A game of a part lasts as long as its cells do.
+/// A game of a part lasts as long as its cells do, and is saved where they begin.
 std::string played_game(const Experiment& experiment, const Cell& cell) {
   const Experiment& part = part_of(experiment, cell.part);
-  const auto until_s = [](const Experiment& of) { return of.warm_up_s + of.duration_s; };
-  const bool is_of_first_length = experiment.parts.empty() || until_s(part) == until_s(experiment.parts.front());
-  return game_of(cell, part.population) + (is_of_first_length ? "" : "-" + shortest(until_s(part)) + "s");
+  const Experiment& first = experiment.parts.empty() ? part : experiment.parts.front();
+  std::string name = game_of(cell, part.population);
+  if (part.start_s != first.start_s) name += "-from" + shortest(part.start_s) + "s";
+  if (part.end_s() != first.end_s()) name += "-" + shortest(part.end_s()) + "s";
+  return name;
 }
 
 /// Game name to key log, all written before the first cell starts, so that an impossible one is found before anything was waited for.

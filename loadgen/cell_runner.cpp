@@ -9,6 +9,7 @@
 #include "game/players/player.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/discovery_table.h"
+#include "loadgen/game_plan.h"
 #include "loadgen/parameter.h"
 #include "loadgen/process.h"
 #include "loadgen/process_run.h"
@@ -155,6 +156,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--clients", std::to_string(cell.clients));
   if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
+  if (experiment.start_s > 0.0) add("--from-state", state_file_of(key_log).string());
   add("--report", report.string());
   return arguments;
 }
@@ -177,6 +179,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   add("--view-margin", decimal(cell.parameters.view_margin));
   if (!has_regions(cell)) arguments.push_back("--no-regions");
   if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
+  if (experiment.start_s > 0.0) add("--start", decimal(experiment.start_s));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--report", report.string());

@@ -48,6 +48,7 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
 }
 
 void read_setting(ExperimentReader& reader, Experiment& result, const std::filesystem::path& file) {
+  reader.number("start_s", result.start_s, "a number from 0 to 600", [](double v) { return v >= 0.0 && v <= 600.0; });
   reader.number("duration_s", result.duration_s, "a number from 0.1 to 3600", [](double v) { return v >= 0.1 && v <= 3600.0; });
   reader.number("warm_up_s", result.warm_up_s, "a number from 0 to 600", [](double v) { return v >= 0.0 && v <= 600.0; });
   reader.number("view_area", result.view_area, "a number from 0 (as view_fraction says) to 1e12, and above 0 only beside a single view_fraction",
@@ -139,7 +140,14 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
     if (policy != "periodic" && policy != "on-event") refuse("knows the policies periodic and on-event, not " + policy);
   if (experiment.sweep_ticks != std::vector<double>{0.0}) refuse("sweeps no regions: expected sweep_ticks = 0");
   if (experiment.server_cores != std::vector<std::uint32_t>{1}) refuse("has no server: expected server_cores = 1");
+  if (experiment.start_s > 0.0) refuse("begins with the scene, for no peer takes over a saved game: expected start_s = 0");
   if (experiment.network_carries_datagrams) refuse("sends no datagrams: expected a [network] without them");
+}
+
+/// A saved game is one of keys that are known beforehand.
+void expect_what_can_start_warm(const Experiment& experiment, const std::string& file) {
+  if (experiment.start_s == 0.0 || experiment.keys == KeySource::replay || experiment.players == "random" || !game::is_player_kind(experiment.players)) return;
+  throw ExperimentError(file + ": start_s above 0 with keys = live: players who decide on what they see press what nobody knows beforehand; expected start_s = 0, keys = \"replay\", or players = \"random\"");
 }
 
 void expect_use_of_always(const Experiment& experiment, const std::string& file) {
@@ -190,6 +198,7 @@ Experiment part_in(ExperimentReader& reader, const Experiment& whole, const std:
   expect_use_of_relevance(reader, result, file.string());
   expect_what_peers_can(result, file.string());
   expect_use_of_always(result, file.string());
+  expect_what_can_start_warm(result, file.string());
   return result;
 }
 
@@ -219,6 +228,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());
   expect_use_of_always(result, file.string());
+  expect_what_can_start_warm(result, file.string());
   return result;
 }
 

@@ -93,6 +93,7 @@ struct Experiment {
   std::vector<std::string> policies{"periodic"};
   std::vector<std::uint32_t> clients{10};
   std::vector<std::uint64_t> seeds{1};
+  double start_s = 0.0;          ///< [s] of the game played before a run begins, without its network and measured by nobody; 0 to 600
   double duration_s = 3.0;       ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;        ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0}, tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
@@ -101,7 +102,7 @@ struct Experiment {
   double view_area = 0.0;        ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
   TransportKind transport = TransportKind::tcp;
   double delay_ms = 10.0;        ///< one way, in virtual time; 0 to 10,000; with a network the greater of its latencies
-  rti::NetworkConditions network;       ///< in virtual time; partitions count from the game's start. Without [network] `delay_ms` and nothing else
+  rti::NetworkConditions network;       ///< in virtual time; partitions count from the run's start. Without [network] `delay_ms` and nothing else
   bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
   Relevance relevance = Relevance::rectangle;
@@ -118,6 +119,8 @@ struct Experiment {
   Population population = Population::fixed;
   KeySource keys = KeySource::replay;
   std::string text;  ///< the file as read
+  double measured_from_s() const { return start_s + warm_up_s; }  ///< of the game [s]
+  double end_s() const { return start_s + (warm_up_s + duration_s); }  ///< likewise
   /// Of an experiment of several parts: each is one of its own, with the same name, scene and baseline and all that it does not say otherwise. The cells are theirs.
   std::vector<Experiment> parts{};
   std::string part{};         ///< of a part: its name

@@ -58,6 +58,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("cell_size", run.cell.parameters.cell_size);
   line.field("duration_s", run.duration_s);
   line.field("warm_up_s", run.warm_up_s);
+  line.field("start_s", run.start_s);
   line.field("measured_s", run.measured_s);
   line.field("segments_per_s", run.segments_per_s);
   line.field("writes_per_s", run.writes_per_s);

@@ -269,6 +269,7 @@ RunRecord record_for(const Experiment& experiment, const Cell& cell) {
   record.view_area = experiment.view_area;
   record.duration_s = experiment.duration_s;
   record.warm_up_s = experiment.warm_up_s;
+  record.start_s = experiment.start_s;
   return record;
 }
 

@@ -68,7 +68,7 @@ struct RunRecord {
   std::string why_invalid;  ///< empty if valid
 
   std::string scene, population, keys;
-  double duration_s = 0.0, warm_up_s = 0.0;
+  double duration_s = 0.0, warm_up_s = 0.0, start_s = 0.0;
   std::optional<double> measured_s;
   std::optional<double> segments_per_s, writes_per_s;
   std::optional<double> acknowledgements_per_s;  ///< segments without payload

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "loadgen/game_plan.h"
 #include "loadgen/growth.h"
 
 namespace rink::loadgen {
@@ -124,6 +125,7 @@ Outcome run_saturation(const Experiment& experiment, const SaturateOptions& opti
     write_key_log(cell, key_log);
     const auto record = run_cell(settings, experiment, cell, key_log);
     std::error_code ignored;
+    std::filesystem::remove(state_file_of(key_log), ignored);
     std::filesystem::remove(key_log, ignored);  // drawn again from its seed by anybody who wants it; thousands of players' plans fill a disk
     if (!record) return std::nullopt;
     outcome.runs.push_back(*record);

@@ -207,7 +207,7 @@ Agreement agreement_of(std::span<const RunRecord> runs) {
     if (!run.valid || run.keys != "replay") continue;
     const Population population = run.population == "per_client" ? Population::per_client : Population::fixed;
     const std::string game = game_of(run.cell, population);
-    const double rate_hz = run.cell.parameters.tick_rate_hz, end_s = std::floor((run.warm_up_s + run.duration_s) * rate_hz + 1e-9) / rate_hz;
+    const double rate_hz = run.cell.parameters.tick_rate_hz, end_s = run.start_s + std::floor((run.warm_up_s + run.duration_s) * rate_hz + 1e-9) / rate_hz;
     hashes_of_game[{game, end_s}].push_back(run.state_hash);
   }
   Agreement result;

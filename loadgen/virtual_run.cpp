@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/control/game_state.h"
 #include "game/model/scene_file.h"
 #include "game/net/fom_file.h"
 #include "game/replication/trajectory_codec.h"
@@ -31,7 +32,8 @@ using Json = nlohmann::ordered_json;
 
 class VirtualRun {
  public:
-  VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
+  VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene, const std::vector<game::InputEvent>& keys,
+             const std::filesystem::path& state_file);
 
   void run();
   Json server_report() const;
@@ -43,11 +45,11 @@ class VirtualRun {
   void end(Json& server_report);
 
  private:
-  static game::ServerSettings server_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
+  game::ServerSettings server_settings(const game::Scene& scene, const std::vector<game::InputEvent>& keys) const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
-  double simulated_now() const { return start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_); }
+  double simulated_now() const { return experiment_.start_s + (start_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(network_.now_ns() - start_ns_)); }
   void heed_interrupt() const {
     if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
   }
@@ -61,6 +63,9 @@ class VirtualRun {
   const RunnerSettings& settings_;
   const Experiment& experiment_;
   const Cell& cell_;
+  std::string state_file_;           ///< empty: the game begins with the scene
+  std::vector<std::uint8_t> state_;  ///< what is in it
+  std::optional<game::Game> begun_;
   rti::NetworkModel model_;
   rti::VirtualNetwork network_;
   rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
@@ -72,10 +77,12 @@ class VirtualRun {
   game::ServingCounts begin_, end_;
 };
 
-game::ServerSettings VirtualRun::server_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys) {
-  game::ServerSettings settings{.policy = cell.policy, .threshold = cell.parameters.threshold, .sweep_ticks = cell.parameters.sweep_ticks, .tick_s = 1.0 / cell.parameters.tick_rate_hz, .replay = {}};
-  if (experiment.keys == KeySource::replay) settings.replay = keys;
-  settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
+game::ServerSettings VirtualRun::server_settings(const game::Scene& scene, const std::vector<game::InputEvent>& keys) const {
+  game::ServerSettings settings{.policy = cell_.policy, .threshold = cell_.parameters.threshold, .sweep_ticks = cell_.parameters.sweep_ticks,
+                                .tick_s = 1.0 / cell_.parameters.tick_rate_hz, .replay = {}};
+  if (experiment_.keys == KeySource::replay) settings.replay = keys;
+  settings.always_relevant = game::relevant_kinds_of(scene, experiment_.always);
+  if (begun_) settings.begun = &*begun_;
   return settings;
 }
 
@@ -86,26 +93,30 @@ BotCrowdSettings VirtualRun::crowd_settings(const Experiment& experiment, const 
   settings.view_margin = cell.parameters.view_margin;
   settings.declares_regions = has_regions(cell);
   settings.extrapolates = cell.parameters.extrapolates;
-  settings.warm_up_s = experiment.warm_up_s;
-  settings.duration_s = experiment.warm_up_s + experiment.duration_s;
+  settings.start_s = experiment.start_s;
+  settings.warm_up_s = experiment.measured_from_s();
+  settings.duration_s = experiment.end_s();
   if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players))
     settings.players = {.kind = experiment.players, .rules = game::rules_of(game::load_scene(experiment.scene), 0), .seed = cell.seed};
   return settings;
 }
 
 VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const rti::Fom& fom, const game::Scene& scene,
-                       const std::vector<game::InputEvent>& keys)
+                       const std::vector<game::InputEvent>& keys, const std::filesystem::path& state_file)
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
+      state_file_(experiment.start_s > 0.0 ? state_file.string() : ""),
+      state_(state_file_.empty() ? std::vector<std::uint8_t>() : game::read_game_state(state_file_)),
+      begun_(state_file_.empty() ? std::nullopt : std::optional(game::game_in_state(state_, scene, state_file_))),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, scene, server_settings(experiment, cell, scene, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
+      serving_(fom, scene, server_settings(scene, keys), game::federation_settings(scene, cell.scheme, cell.parameters.cell_size),
                [this] { return now_s(); }, [this] { return simulated_now(); }),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), cell.clients, keys, [this] { return now_s(); }) {
   if (settings.wants_truth) {
-    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = experiment.warm_up_s + experiment.duration_s}, cell.parameters.tick_rate_hz);
+    serving_.collect_evidence({.seed = cell.seed, .clients = cell.clients, .from_s = experiment.measured_from_s(), .until_s = experiment.end_s()}, cell.parameters.tick_rate_hz);
     crowd_.collect_evidence(cell.seed);
   }
   if (experiment.network_carries_datagrams) network_.carry_datagrams();
@@ -145,7 +156,7 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
     if (network_.now_ns() > limit_ns) throw Failure{"waited in vain for " + what};
     advance_until(network_.now_ns() + step_ns);
     serving_.exchange(0.0);
-    if (server_.is_joined()) serving_.send(0.0, 0.0, uncounted);
+    if (server_.is_joined()) serving_.send(experiment_.start_s, 0.0, uncounted);
     serving_.host().advance_clock(now_s());
     crowd_.run_once();
   }
@@ -179,7 +190,7 @@ void VirtualRun::play() {
       end_ = counts_of(serving_, server_end_.totals());
       measured_until_ns_ = network_.now_ns();
     }
-    serving_.tick(simulated_s, now_s());
+    serving_.tick(experiment_.start_s + simulated_s, now_s());
     crowd_.run_once();
     if (simulated_s >= experiment_.warm_up_s && number < last) ++ticks_;
   }
@@ -232,6 +243,8 @@ Json VirtualRun::bots_report() const {
 game::ServerEvidence VirtualRun::server_evidence() const {
   game::ServerEvidence server = serving_.evidence().value();
   server.choice = choice_of(experiment_, cell_);
+  server.state_file = state_file_;
+  server.state = state_;
   server.scheme = cell_.scheme;
   server.policy = cell_.policy;
   return server;
@@ -246,7 +259,7 @@ void VirtualRun::end(Json& server_report) {
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
   const game::Scene scene = scene_of(experiment, cell);
-  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene));
+  VirtualRun run(settings, experiment, cell, fom, scene, keys_in(key_log, scene), state_file_of(key_log));
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();

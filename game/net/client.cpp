@@ -139,8 +139,8 @@ void Client::reach_barrier_once_ready() {
   if (is_called_) {
     ambassador_.synchronization_point_achieved(start_barrier);
     is_called_ = false;
-  } else if (own->stamp.time > 0.0 || mirror_.has_match()) {
-    state_ = State::playing;  // joined late, and the game runs already; or a match waits for its players
+  } else if (own->stamp.tag != 0 || mirror_.has_match()) {
+    state_ = State::playing;  // joined late, and ticks are due already; or a match waits for its players
   }
 }
 

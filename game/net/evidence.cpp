@@ -2,24 +2,19 @@
 #include "game/net/evidence.h"
 
 #include <algorithm>
-#include <cinttypes>
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "game/control/game_state.h"
+#include "game/model/byte_hash.h"
 #include "game/net/evidence_lines.h"
 
 namespace rink::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 1;
-
-std::string hexadecimal(std::uint64_t number) {
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, number);
-  return digits;
-}
+constexpr int version = 2;  // 2: may begin from a saved game
 
 /// Ascending numbers as first and length of each run: what `none` decides is one run.
 Json runs_of(std::span<const std::uint32_t> numbers) {
@@ -45,11 +40,28 @@ void append_runs(const nlohmann::json& runs, std::vector<std::uint32_t>& numbers
   }
 }
 
-Json header_of(const ServerEvidence& evidence) {
-  return {{"rink-server-evidence", version}, {"scene", evidence.choice.scene}, {"bats", evidence.choice.bats}, {"bat_count", evidence.choice.bat_count},
+std::string hash_of_state(std::span<const std::uint8_t> state) { return hexadecimal(hash_of({reinterpret_cast<const char*>(state.data()), state.size()})); }
+
+Json header_of(const ServerEvidence& evidence, const std::filesystem::path& file) {
+  Json header{{"rink-server-evidence", version}, {"scene", evidence.choice.scene}, {"bats", evidence.choice.bats}, {"bat_count", evidence.choice.bat_count},
           {"puck_count", evidence.choice.puck_count}, {"seed", evidence.choice.seed}, {"scheme", evidence.scheme}, {"policy", evidence.policy},
           {"clients", evidence.clients}, {"rate_hz", evidence.rate_hz}, {"from_s", evidence.from_s}, {"until_s", evidence.until_s}, {"end_s", evidence.end_s},
           {"state_hash", hexadecimal(evidence.state_hash)}, {"decisions", evidence.decisions.size()}};
+  if (!evidence.state_file.empty())
+    header["begins_from"] = {{"file", std::filesystem::absolute(evidence.state_file).lexically_relative(std::filesystem::absolute(file).parent_path()).generic_string()}, {"fnv1a", hash_of_state(evidence.state)}};
+  return header;
+}
+
+/// A folder of evidence that is moved takes its saved games along.
+void read_state(const nlohmann::json& begins_from, const std::filesystem::path& folder, ServerEvidence& evidence) {
+  const std::filesystem::path file = (folder / begins_from.at("file").get<std::string>()).lexically_normal();
+  try {
+    evidence.state = read_game_state(file);
+  } catch (const SceneError& error) {
+    throw EvidenceError(error.what());
+  }
+  if (hash_of_state(evidence.state) != begins_from.at("fnv1a").get<std::string>()) throw EvidenceError(file.string() + ": is not the saved game that the evidence began from: its hash differs");
+  evidence.state_file = file.string();
 }
 
 void read_header(const nlohmann::json& line, ServerEvidence& evidence, const EvidenceReader& reader) {
@@ -73,10 +85,11 @@ InputEvent read_key(const nlohmann::json& line, const EvidenceReader& reader) {
   return event;
 }
 
-ServerEvidence read_lines(EvidenceReader& reader) {
+ServerEvidence read_lines(EvidenceReader& reader, const std::filesystem::path& folder) {
   ServerEvidence evidence;
   const nlohmann::json header = reader.next();
   read_header(header, evidence, reader);
+  if (header.contains("begins_from")) read_state(header["begins_from"], folder, evidence);
   const nlohmann::json ticks = reader.next().at("ticks_us");
   for (const nlohmann::json& tick : ticks) evidence.ticks.push_back({tick.at(0), 1e-6 * tick.at(1).get<double>(), 1e-6 * tick.at(2).get<double>(), 1e-6 * tick.at(3).get<double>()});
   const nlohmann::json keys = reader.next().at("keys");
@@ -96,7 +109,7 @@ ServerEvidence read_lines(EvidenceReader& reader) {
 
 void write_evidence(const std::string& file, const ServerEvidence& evidence) {
   EvidenceWriter writer(file);
-  writer.line(header_of(evidence));
+  writer.line(header_of(evidence, file));
   Json ticks = Json::array(), keys = Json::array(), objects = Json::array();
   const auto us = [](double seconds) { return std::round(1e9 * seconds) * 1e-3; };
   for (const ServerEvidence::Tick& tick : evidence.ticks) ticks.push_back({tick.simulated_s, us(tick.physics_s), us(tick.filter_s), us(tick.send_s)});
@@ -113,7 +126,7 @@ void write_evidence(const std::string& file, const ServerEvidence& evidence) {
 ServerEvidence read_server_evidence(const std::string& file) {
   EvidenceReader reader(file);
   try {
-    return read_lines(reader);
+    return read_lines(reader, std::filesystem::path(file).parent_path());
   } catch (const nlohmann::json::exception& error) {
     reader.refuse(std::string("the server's evidence as docs/metrics.md describes it (") + error.what() + ")");
   } catch (const std::logic_error&) {

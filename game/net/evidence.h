@@ -28,6 +28,8 @@ struct ServerEvidence {
   };
 
   SceneChoice choice;
+  std::string state_file;              ///< of the saved game from which the run began (game/control/game_state.h); empty: the scene's beginning
+  std::vector<std::uint8_t> state;     ///< what is in it
   std::string scheme, policy;
   std::uint32_t clients = 0;
   double rate_hz = 0.0;
@@ -43,9 +45,9 @@ struct ServerEvidence {
   std::span<const std::uint32_t> scope_of(const Decision& decision) const { return std::span(in_scope).subspan(decision.first, decision.last - decision.first); }
 };
 
-/// Throws std::runtime_error naming `file` if it cannot be written.
+/// A saved game is named by its path from `file`'s folder, and by its hash. Throws std::runtime_error naming `file` if it cannot be written.
 void write_evidence(const std::string& file, const ServerEvidence& evidence);
-/// Throws EvidenceError naming file, line and what was expected.
+/// Throws EvidenceError naming file, line and what was expected, or the saved game if that is missing or another.
 ServerEvidence read_server_evidence(const std::string& file);
 
 }  // namespace rink::game

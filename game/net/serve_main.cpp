@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
+#include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/match_records.h"
-#include "game/control/replay.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
 #include "game/net/exit_status.h"
@@ -24,6 +24,7 @@
 #include "game/net/scene_choice.h"
 #include "game/version/version.h"
 #include "rti/second_core.h"
+#include "game/net/serve_game.h"
 #include "game/net/serve_options.h"
 #include "game/net/serve_report.h"
 #include "game/net/serve_requirements.h"
@@ -62,22 +63,24 @@ struct Costs {
 /// The server process: the clients' transport, the wall clock, and the loop that ticks.
 class ServerProcess {
  public:
-  ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::Scene& scene, const std::string& federation, std::optional<std::vector<game::InputEvent>> replay)
+  ServerProcess(const game::ServeOptions& options, const rti::Fom& fom, const game::ServedGame& played, const std::string& federation)
       : options_(options),
+        begin_s_(played.begun ? played.begun->now() : 0.0),
         sockets_(options.transport),
-        serving_(fom, scene,
+        serving_(fom, played.scene,
                  {.federation = federation, .policy = options.policy, .threshold = options.threshold,
                   .sweep_ticks = options.sweep_ticks, .tick_s = 1.0 / options.rate_hz, .is_synchronous = options.pace == "synchronous",
-                  .is_time_managed = options.is_time_managed, .replay = std::move(replay), .hosting = hosting_of(options), .key_limit_per_s = options.key_limit_per_s,
-                  .always_relevant = game::relevant_kinds_of(scene, options.always)},
-                 game::federation_of(options, scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
+                  .is_time_managed = options.is_time_managed, .replay = played.replay, .hosting = hosting_of(options), .key_limit_per_s = options.key_limit_per_s,
+                  .always_relevant = game::relevant_kinds_of(played.scene, options.always),
+                  .begun = played.begun ? &*played.begun : nullptr},
+                 game::federation_of(options, played.scene, federation, options.has_second_core ? &second_core_.emplace() : nullptr), now_s, [this] { return simulated_now(); }),
         staggered_(sockets_.get(), options.spread / options.rate_hz, now_s),
         gate_(staggered_, {.key_file = options.key_file, .federation = federation, .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}}, now_s),
         server_(serving_.server()),
         records_(options.record) {
     serving_.host().add(gate_.transport());
     if (!options.evidence.empty())
-      serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = options.warm_up_s, .until_s = options.duration_s}, options.rate_hz);
+      serving_.collect_evidence({.seed = options.seed, .clients = options.clients, .from_s = begin_s_ + options.warm_up_s, .until_s = begin_s_ + options.duration_s}, options.rate_hz);
   }
 
   /// Says at once if matches cannot be recorded; they can be played all the same.
@@ -95,13 +98,13 @@ class ServerProcess {
   std::string missing() const;
   Json report() const;
   /// What the run was and what its filter decided, if `--evidence` asked for it.
-  std::optional<game::ServerEvidence> evidence(const game::SceneChoice& choice) const;
+  std::optional<game::ServerEvidence> evidence(const game::ServedGame& played) const;
   /// What the connections carried from first to last.
   rti::TransportCounters totals() const { return sockets_.totals(); }
 
  private:
   static std::optional<game::Hosting> hosting_of(const game::ServeOptions& options);
-  double simulated_now() const { return start_s_ == 0.0 ? 0.0 : (options_.pace == "synchronous" ? server_.game().now() : std::max(0.0, now_s() - start_s_)); }
+  double simulated_now() const { return start_s_ == 0.0 ? begin_s_ : (options_.pace == "synchronous" ? server_.game().now() : begin_s_ + std::max(0.0, now_s() - start_s_)); }
   void wait(double seconds);
   void exchange_until(double until_s);
   void await_turns();
@@ -111,6 +114,7 @@ class ServerProcess {
   void report_flood();
 
   game::ServeOptions options_;
+  double begin_s_;  ///< simulated instant at which the game begins
   rti::SocketTransport sockets_;
   std::optional<rti::SecondCore> second_core_;
   game::Serving serving_;
@@ -146,7 +150,7 @@ void ServerProcess::await_turns() {
 void ServerProcess::wait(double seconds) {
   game::TickCosts uncounted;
   serving_.exchange(seconds);
-  if (server_.is_joined() && server_.trouble().empty()) serving_.send(0.0, not_started_s, uncounted);
+  if (server_.is_joined() && server_.trouble().empty()) serving_.send(begin_s_, not_started_s, uncounted);
   serving_.host().advance_clock(now_s());
 }
 
@@ -163,7 +167,7 @@ bool ServerProcess::start() {
 
 void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double period_s = 1.0 / options_.rate_hz, elapsed_s = static_cast<double>(number) * period_s;
-  const double simulated_s = options_.hosted.empty() ? elapsed_s : server_.follow_match(elapsed_s);
+  const double simulated_s = options_.hosted.empty() ? begin_s_ + elapsed_s : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const game::TickCosts tick = serving_.tick(simulated_s, due_s);
   keep_records();
@@ -245,10 +249,12 @@ void ServerProcess::keep_records() {
   }
 }
 
-std::optional<game::ServerEvidence> ServerProcess::evidence(const game::SceneChoice& choice) const {
+std::optional<game::ServerEvidence> ServerProcess::evidence(const game::ServedGame& played) const {
   std::optional<game::ServerEvidence> evidence = serving_.evidence();
   if (!evidence) return std::nullopt;
-  evidence->choice = choice;
+  evidence->choice = played.choice;
+  evidence->state_file = options_.from_state;
+  evidence->state = played.state;
   evidence->scheme = options_.scheme;
   evidence->policy = options_.policy;
   return evidence;
@@ -285,15 +291,6 @@ Json ServerProcess::report() const {
   return report;
 }
 
-/// All that it takes to play the game again up to now and to compare the hash.
-game::KeyLog record_of(const game::SceneChoice& choice, const game::Scene& scene, const game::Server& server) {
-  game::KeyLog log = game::log_of(server.game(), scene, game::scene_text(choice.scene), server.record());
-  log.scene = choice.scene;
-  if (choice.bat_count > 0) log.bat_count = choice.bat_count;
-  if (choice.puck_count > 0) log.puck_count = choice.puck_count;
-  return log;
-}
-
 /// Asks a running server, once or again and again.
 game::ExitStatus show_status(const game::ServeOptions& options) try {
   const auto [address, port] = game::address_and_port("--status", options.status);
@@ -319,18 +316,11 @@ game::ExitStatus serve(game::ServeOptions& options) {
   const rti::FederationFile file = game::follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = game::load_rink_fom(file.fom);
-  const game::SceneChoice choice{.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
-  const game::Scene scene = game::chosen_scene(choice);
-  game::require_room(options, scene);
-  std::optional<std::vector<game::InputEvent>> replay;
-  if (!options.keys.empty()) {
-    game::KeyLog log = game::read_key_log(options.keys);
-    game::require_fit(log, scene, options.keys);
-    replay = std::move(log.events);
-  }
+  const game::ServedGame played = game::served_game(options);
+  game::require_room(options, played.scene);
 
   rti::ensure_file_limit(options.clients + 64u);
-  ServerProcess process(options, fom, scene, federation, std::move(replay));
+  ServerProcess process(options, fom, played, federation);
   const std::uint16_t port = process.listen();
   std::printf("listening on %s:%u\n", options.address.c_str(), static_cast<unsigned>(port));
   std::fflush(stdout);
@@ -341,8 +331,8 @@ game::ExitStatus serve(game::ServeOptions& options) {
   if (is_complete) process.run();
   Json report = process.report();
   // Both before the players leave, for the hash is of now.
-  std::optional<game::ServerEvidence> evidence = process.evidence(choice);
-  const game::KeyLog log = options.record.empty() || !options.hosted.empty() ? game::KeyLog{} : record_of(choice, scene, process.server());
+  std::optional<game::ServerEvidence> evidence = process.evidence(played);
+  const game::KeyLog log = options.record.empty() || !options.hosted.empty() ? game::KeyLog{} : game::record_of(played, process.server());
   if (report["lost_federates"] != 0 || report["dropped_connections"] != 0)
     spdlog::warn("{} federates were lost, {} connections dropped", report["lost_federates"].get<std::uint64_t>(), report["dropped_connections"].get<std::uint64_t>());
   if (report["keys_over_limit"] != 0)

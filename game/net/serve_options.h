@@ -19,7 +19,7 @@ namespace rink::game {
 
 struct ServeOptions {
   std::string scene = "crowd", federation_file, address = "127.0.0.1", scheme = "region", policy = "periodic", keys, record, report, evidence, status, pace = "realtime", transport = "tcp", hosted;
-  std::string key_file;
+  std::string key_file, from_state;
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
@@ -78,6 +78,7 @@ inline void add_options(CLI::App& app, ServeOptions& options) {
   app.add_option("--clients", options.clients, "players to wait for before the start")->check(number_from(0, bats_max))->capture_default_str();
   app.add_option("--patience", options.patience_s, "seconds to wait for them")->check(number_from(0.001, seconds_max))->capture_default_str();
   app.add_option("--keys", options.keys, "recorded key log that moves the bats instead of the players' keys")->check(CLI::ExistingFile);
+  app.add_option("--from-state", options.from_state, "saved game from which to begin, as rink compare writes it beside a key log; of --keys those after its instant, and --duration and --warm-up count from there")->check(CLI::ExistingFile);
   app.add_option("--record", options.record, "file for the key log of this run; folder for those of hosted matches, by default matches");
   app.add_option("--evidence", options.evidence, "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
   app.add_option("--status", options.status, "ADDRESS:PORT of a running server: print what it says of its federations and federates, and end; nothing is served. --transport and --key-file as the server's")->check(not_empty());

@@ -38,6 +38,13 @@ void require_always(const ServeOptions& options) {
   if (!options.always.empty() && !im::names_scheme(options.scheme, "always")) throw std::runtime_error("--always: the scheme " + options.scheme + " does not name always; one that does is " + options.scheme + " or always");
 }
 
+/// Throws if what else is asked for begins at the scene's beginning.
+void require_beginning(const ServeOptions& options) {
+  if (options.from_state.empty()) return;
+  if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed || !options.record.empty())
+    throw std::runtime_error("--from-state: a hosted match, --pace synchronous, --time-management and --record begin with the scene and can't be given with it");
+}
+
 }  // namespace
 
 void host_by_default(const CLI::App& app, ServeOptions& options) {
@@ -80,6 +87,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) + " bodies; allowed is at most " + std::to_string(body_max));
   require_cells(options);
   require_always(options);
+  require_beginning(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error("--spread staggers what goes by streams in real time: --pace synchronous and --transport udp can't be given with it");
   if (!options.evidence.empty() && options.duration_s == 0.0) throw std::runtime_error("--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");

@@ -19,7 +19,7 @@ constexpr double key_lead_max = 0.25;
 Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings, std::function<double()> now)
     : model_(fom),
       now_(std::move(now)),
-      game_(scene),
+      game_(settings.begun ? settings.begun->copy() : Game(scene)),
       is_replay_(settings.replay.has_value()),
       policy_(make_update_policy(settings.policy, {.threshold = settings.threshold})),
       sweep_(settings.sweep_ticks, settings.tick_s),
@@ -29,7 +29,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       is_synchronous_(settings.is_synchronous),
       is_time_managed_(settings.is_time_managed),
       tick_s_(settings.tick_s) {
-  assert(!settings.hosting || (!is_replay_ && !match_objection(scene) && !is_time_managed_));
+  assert(!settings.hosting || (!is_replay_ && !match_objection(scene) && !is_time_managed_ && !settings.begun));
   if (settings.hosting) {
     hosting_ = settings.hosting;
     scene_ = scene;
@@ -40,7 +40,8 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
   is_leaving_.resize(game_.player_count());
   felt_.resize(game_.player_count());
   if (is_replay_)
-    for (const InputEvent& event : *settings.replay) submit(event);
+    for (const InputEvent& event : *settings.replay)
+      if (!settings.begun || event.time > game_.now()) submit(event);
   ambassador_.join(settings.federation, "server", "server");
 }
 

@@ -48,6 +48,8 @@ struct ServerSettings {
   /// acknowledged, so that its player does not wait for it, but not felt.
   double key_limit_per_s = key_limit_default;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
+  /// A game of the scene that the server's goes on from instead of beginning (a copy of it, made at once); of `replay` the keys after its now(). Not with `hosting` (asserted).
+  const Game* begun = nullptr;
 };
 
 struct ServerCounters {

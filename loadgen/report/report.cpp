@@ -50,6 +50,11 @@ std::string transport_text(const Experiment& experiment) {
   return "virtual time with " + short_number(experiment.delay_ms) + " ms from one end to the other";
 }
 
+std::string span_text(const Experiment& experiment) {
+  const std::string from = experiment.start_s > 0.0 ? " from the game at " + short_number(experiment.start_s) + " s" : "";
+  return short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up" + from + ", ";
+}
+
 /// What each part of which there are rows differs in.
 std::string parts_text(const Experiment& experiment, std::span<const RunRecord> runs) {
   std::string text = "Scene " + experiment.scene + ". ";
@@ -58,7 +63,7 @@ std::string parts_text(const Experiment& experiment, std::span<const RunRecord> 
     for (const RunRecord& run : runs)
       if (run.cell.part == part.part) ++count, valid += run.valid;
     if (count == 0) continue;
-    text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " + short_number(part.duration_s) + " s measured after " + short_number(part.warm_up_s) + " s of warm-up, " +
+    text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " + span_text(part) +
             view_text(part) + "; " + std::to_string(count) + " of " + std::to_string(cells_of(part).size()) + " cells run, " + std::to_string(valid) + " valid. ";
   }
   return text + "Plots over clients are of the first part.";
@@ -68,7 +73,7 @@ std::string setting_text(const Experiment& experiment, std::span<const RunRecord
   if (!experiment.parts.empty()) return parts_text(experiment, runs);
   const auto valid = std::count_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.valid; });
   std::string text = "Scene " + experiment.scene + ", " + (experiment.population == Population::fixed ? "fixed" : "per-client") + " population, players " + experiment.players + ", " +
-                     rates_text(experiment) + " Hz, " + short_number(experiment.duration_s) + " s measured after " + short_number(experiment.warm_up_s) + " s of warm-up, " +
+                     rates_text(experiment) + " Hz, " + span_text(experiment) +
                      view_text(experiment) + "; ";
   text += transport_text(experiment) + "; ";
   // A search runs cells of its own choice beside those of the experiment.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "game/control/game_state.h"
 #include "game/net/evidence_lines.h"
 
 namespace rink::loadgen {
@@ -15,7 +16,8 @@ namespace rink::loadgen {
 Replay::Replay(const game::ServerEvidence& evidence, const RelevanceArea& area) : Replay(game::chosen_scene(evidence.choice), evidence, area) {}
 
 Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence, const RelevanceArea& area)
-    : game_(scene), area_(area), surroundings_(area, scene.world.field.length, scene.world.field.width),
+    : game_(evidence.state_file.empty() ? game::Game(scene) : game::game_in_state(evidence.state, scene, evidence.state_file)), begin_s_(game_.now()), area_(area),
+      surroundings_(area, scene.world.field.length, scene.world.field.width),
       puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction), bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
       encounters_(scene.world.field.length, scene.world.field.width), rate_hz_(evidence.rate_hz) {
   for (const game::Bat& bat : scene.bodies.bats) thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
@@ -24,6 +26,7 @@ Replay::Replay(const game::Scene& scene, const game::ServerEvidence& evidence, c
   for (const game::InputEvent& event : evidence.keys) {
     if (event.player >= game_.player_count())
       throw game::EvidenceError("the server's evidence has keys of player " + std::to_string(event.player) + ", but its scene has " + std::to_string(game_.player_count()) + " bats");
+    if (event.time < begin_s_) throw game::EvidenceError("the server's evidence has keys from before " + evidence.state_file + ", which it began from");
     game_.submit(event);
   }
   for (const game::ServerEvidence::Naming& naming : evidence.objects) entities_[naming.object] = naming.body;

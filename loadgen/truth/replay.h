@@ -19,9 +19,12 @@ namespace rink::loadgen {
 /// Entities are named by the numbers of their bodies. Instants never decrease.
 class Replay {
  public:
-  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks, game::SceneError if there is no such scene.
+  /// Throws game::EvidenceError if the evidence speaks of players that the scene lacks, game::SceneError if there is no such scene or
+  /// its saved game is none of it.
   Replay(const game::ServerEvidence& evidence, const RelevanceArea& area);
 
+  /// Of the game: 0, or where its saved state stands [s].
+  double begin_s() const { return begin_s_; }
   /// Plays up to `instant_s`.
   void advance(double instant_s);
   /// Takes in where everything is now; asked for once for each instant at which `find` is used.
@@ -64,6 +67,7 @@ class Replay {
   bool is_of_contact() const { return area_.shape == RelevanceArea::Shape::contact; }
 
   game::Game game_;
+  double begin_s_;
   RelevanceArea area_;
   Surroundings surroundings_;
   Reach puck_reach_, bat_reach_;

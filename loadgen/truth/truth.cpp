@@ -93,7 +93,7 @@ class ReplayJudgement {
       looks_.push_back({bots_.samples[i].displayed_s, Look::Kind::displayed, i});
       looks_.push_back({bots_.samples[i].matched_s, Look::Kind::matched, i});
     }
-    std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= 0.0 && look.instant_s <= server_.end_s); });
+    std::erase_if(looks_, [&](const Look& look) { return !(look.instant_s >= replay_.begin_s() && look.instant_s <= server_.end_s); });
     std::stable_sort(looks_.begin(), looks_.end(), [](const Look& a, const Look& b) { return a.instant_s < b.instant_s; });
   }
 

@@ -300,7 +300,7 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
   const auto words_of = [&](const char* key, const auto& read) {
     const std::string file = (folder_ / "other.jsonl").string();
     game::EvidenceWriter writer(file);
-    writer.line(nlohmann::ordered_json{{key, 2}});
+    writer.line(nlohmann::ordered_json{{key, 3}});
     writer.finish();
     try {
       read(file);
@@ -310,11 +310,11 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
     return std::string("(accepted)");
   };
   EXPECT_THAT(words_of("rink-server-evidence", game::read_server_evidence),
-              HasSubstr("other.jsonl:1: expected a server's evidence of version 1, found version 2"));
-  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence), HasSubstr("expected a peer's evidence of version 1, found version 2"));
-  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence), HasSubstr("expected the bots' evidence of version 1, found version 2"));
+              HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
+  EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_evidence), HasSubstr("expected a peer's evidence of version 1, found version 3"));
+  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_evidence), HasSubstr("expected the bots' evidence of version 1, found version 3"));
   EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_evidence),
-              HasSubstr("expected a server's evidence of version 1, found something else"));
+              HasSubstr("expected a server's evidence of version 2, found something else"));
 }
 
 TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
