@@ -24,6 +24,13 @@ std::vector<double> linear_places(const Axis& axis, double spacing) {
   return places;
 }
 
+/// Three, or more where neighbours are closer than a thousandth of themselves.
+int digits_that_tell_apart(const std::vector<double>& places) {
+  if (places.size() < 2) return 3;
+  const double largest = std::max(std::abs(places.front()), std::abs(places.back()));
+  return std::max(3, static_cast<int>(std::floor(std::log10(largest / (places[1] - places[0])) + rounding)) + 1);
+}
+
 Ticks logarithmic_ticks(const Axis& axis, double spacing) {
   const int first = static_cast<int>(std::floor(std::log10(axis.low))), last = static_cast<int>(std::ceil(std::log10(axis.high)));
   const double decade_length = std::abs(axis.to - axis.from) / std::log10(axis.high / axis.low);
@@ -58,7 +65,9 @@ Ticks ticks_of(const Axis& axis, double spacing) {
   assert(axis.high > axis.low && spacing > 0.0);
   if (axis.is_logarithmic) return logarithmic_ticks(axis, spacing);
   Ticks ticks;
-  for (const double place : linear_places(axis, spacing)) ticks.major.emplace_back(place, short_number(place));
+  const std::vector<double> places = linear_places(axis, spacing);
+  const int digits = digits_that_tell_apart(places);
+  for (const double place : places) ticks.major.emplace_back(place, short_number(place, digits));
   return ticks;
 }
 

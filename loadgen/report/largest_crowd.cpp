@@ -155,8 +155,9 @@ void add_recall_against_delay(Exhibit& exhibit, const Findings& findings) {
 }
 
 std::pair<double, double> zoomed(double low, double high) {
-  const double room = std::max(0.1 * (high - low), 2e-4);
-  return {std::max(0.0, low - room), high + room};
+  constexpr double span_least = 0.02;  // a difference of a thousandth is no gap
+  const double span = std::max(high - low, span_least);
+  return {std::max(0.0, high - 1.1 * span), high + 0.1 * span};
 }
 
 }  // namespace rink::loadgen

@@ -108,7 +108,7 @@ std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y) {
       if (path.empty()) start_x = x.at(value_x), start_y = y.at(value_y);
       path += (path.empty() ? "M" : "L") + coordinate(x.at(value_x)) + " " + coordinate(y.at(value_y));
     }
-    if (!path.empty()) svg += svg_path(path, "reference") + svg_text(start_x + 6.0, start_y + 10.0, "note", curve.name);
+    if (path.find('L') != std::string::npos) svg += svg_path(path, "reference") + svg_text(start_x + 6.0, start_y + 10.0, "note", curve.name);
   }
   return svg;
 }

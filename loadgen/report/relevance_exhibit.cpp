@@ -10,11 +10,13 @@
 namespace rink::loadgen {
 namespace {
 
-/// Where the harmonic mean of precision p and recall r is `score`: p = score r / (2 r - score).
-ReferenceCurve equal_score(double score) {
+/// Where the harmonic mean of precision p and recall r is `score`, p = score r / (2 r - score), from a recall and a precision of so much on.
+ReferenceCurve equal_score(double score, double recall_least, double precision_least) {
+  const double first = std::max(recall_least, score / (2.0 - score));
+  const double last = 2.0 * precision_least > score ? std::min(1.0, score * precision_least / (2.0 * precision_least - score)) : 1.0;
   ReferenceCurve curve{"F1 " + short_number(score), {}};
-  for (int i = 0; i <= 100; ++i) {
-    const double recall = score / (2.0 - score) + (1.0 - score / (2.0 - score)) * i / 100.0;
+  for (int i = 0; i <= 100 && first < last; ++i) {
+    const double recall = first + (last - first) * i / 100.0;
     curve.points.emplace_back(recall, score * recall / (2.0 * recall - score));
   }
   return curve;
@@ -22,7 +24,6 @@ ReferenceCurve equal_score(double score) {
 
 void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, FigureOf recall, const std::string& name, const std::string& title) {
   LinePlot plot{title, "recall", "precision", "", false, false, {}, {}, {}, {}, {}};
-  for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9}) plot.references.push_back(equal_score(score));
   PlotTable table{name, title + ": means over replications with their 95 % intervals", cell_columns()};
   table.columns.insert(table.columns.end(), {"recall", "recall_low_95", "recall_high_95", "precision", "precision_low_95", "precision_high_95"});
   double low_recall = 1.0, low_precision = 1.0;
@@ -43,6 +44,7 @@ void add_plot(Exhibit& exhibit, const Findings& findings, FigureOf precision, Fi
   }
   if (!has_points(plot)) return exhibit.add_absence(title + ": no run was held against truth in this, so there is no plot.");
   plot.x_range = zoomed(low_recall, 1.0), plot.y_range = zoomed(low_precision, 1.0);
+  for (const double score : {0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98}) plot.references.push_back(equal_score(score, plot.x_range->first, plot.y_range->first));
   plot.alternative =
       "The upper right corner is perfect: nothing relevant is missing, nothing irrelevant is sent. Faint curves join points of equal F1, the harmonic mean of both. The axes show where the data are: recall from " +
       plain_number(plot.x_range->first, 4) + ", precision from " + plain_number(plot.y_range->first, 4) + " on." + largest_crowd_words(findings);

@@ -26,7 +26,7 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-std::string short_number(double value) {
+std::string short_number(double value, int digits) {
   const char* unit = "";
   for (const char* larger : {" k", " M", " G"}) {
     if (std::abs(value) < 999.5) break;
@@ -34,7 +34,7 @@ std::string short_number(double value) {
     unit = larger;
   }
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g%s", value, unit);
+  std::snprintf(text, sizeof text, "%.*g%s", digits, value, unit);
   return text;
 }
 

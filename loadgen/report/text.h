@@ -9,8 +9,8 @@ namespace rink::loadgen {
 /// `text` with &, <, >, " and ' as entities and control characters replaced, fit for HTML and SVG content and attributes.
 std::string escaped(const std::string& text);
 
-/// `value` with three digits and a k, M or G where it helps, e.g. `1.5 k`.
-std::string short_number(double value);
+/// `value` with three digits, or as many as said, and a k, M or G where it helps, e.g. `1.5 k`.
+std::string short_number(double value, int digits = 3);
 
 /// `value` with `digits` significant digits and never an exponent, e.g. 0.0123, 12.3, 1230; an n-dash if absent.
 std::string plain_number(std::optional<double> value, int digits = 3);

@@ -142,6 +142,32 @@ TEST(CellLines, NamesSayOnlyWhatDiffersWithinAScheme) {
   EXPECT_NE(lines[1].style.shape, lines[2].style.shape);
 }
 
+/// Numbers of clients that ran in parts of their own.
+TEST(Exhibits, TrafficAgainstClientsPutsPartsInVirtualTimeTogether) {
+  Experiment experiment = small_experiment();
+  for (const char* name : {"sockets", "prompt", "smaller", "late"}) {
+    experiment.parts.push_back(experiment);
+    Experiment& part = experiment.parts.back();
+    part.parts.clear(), part.part = name;
+    part.transport = part.part == "sockets" ? TransportKind::tcp : TransportKind::virtual_time;
+    part.delay_ms = part.part == "late" ? 50.0 : 0.0;
+  }
+  std::vector<RunRecord> runs;
+  for (const auto& [part, clients, bytes] : {std::tuple{"sockets", 100u, 7.0}, {"prompt", 100u, 100.0}, {"smaller", 10u, 10.0}, {"smaller", 30u, 30.0}, {"late", 30u, 5.0}})
+    for (const char* scheme : {"none", "region"}) {
+      runs.push_back(run_of(scheme, "periodic", clients, 1, bytes, 1.0));
+      runs.back().cell.part = part;
+    }
+  const Report report = report_of(experiment, runs, {});
+  const auto table = std::ranges::find(report.tables, "payload-against-clients", &PlotTable::name);
+  ASSERT_NE(table, report.tables.end());
+  const auto column = static_cast<std::size_t>(std::ranges::find(table->columns, "bytes_per_client_per_s") - table->columns.begin());
+  std::vector<std::string> bytes;
+  for (const auto& row : table->rows) bytes.push_back(row.at(0) + " " + row.at(column));
+  EXPECT_THAT(bytes, testing::ElementsAre("none 10", "none 30", "none 100", "region 10", "region 30", "region 100"));
+  EXPECT_THAT(report.html, HasSubstr("All in virtual time without delay."));
+}
+
 TEST(Exhibits, EachPlotHasItsDataAndTheSameRunsGiveTheSameBytes) {
   const auto runs = two_by_two();
   const Report report = report_of(small_experiment(), runs, {}), again = report_of(small_experiment(), runs, {});

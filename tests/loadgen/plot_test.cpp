@@ -65,6 +65,18 @@ LinePlot three_decades() {
   return plot;
 }
 
+TEST(Plot, TicksOfANarrowRangeHaveTheDigitsThatTellThemApart) {
+  std::vector<std::string> texts;
+  for (const auto& [value, text] : ticks_of({0.9989, 1.0, 0.0, 300.0, false}, 40.0).major) texts.push_back(text);
+  EXPECT_THAT(texts, ElementsAre("0.999", "0.9992", "0.9994", "0.9996", "0.9998", "1"));
+}
+
+TEST(Plot, ReferenceCurveOfWhichNoMoreThanAPointIsSeenIsNotNamed) {
+  LinePlot plot = three_decades();
+  plot.references = {{"seen", {{20.0, 20.0}, {200.0, 30.0}}}, {"unseen", {{0.1, 20.0}, {20.0, 20.0}}}};
+  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">seen<"), Not(HasSubstr("unseen"))));
+}
+
 TEST(Plot, ALogarithmicAxisPutsEqualRatiosAtEqualDistances) {
   LinePlot plot = three_decades();
   const auto marks = marks_of(to_svg(plot));
