@@ -25,7 +25,7 @@ class Trace:
         if head["shape"] not in ("square", "disc"):
             raise Untold(f"relevance by {head['shape']} is not computed here")
         self.shape, self.reach, self.has_team, self.always = head["shape"], head["reach"], head["team"], set(head["always"])
-        self.bats = head["bats"]
+        self.begin_s, self.bats = head["begin_s"], head["bats"]
         self.half, self.kind, self.team = {}, {}, {}
         for thing, half_x, half_y, kind, team in head["bodies"]:
             self.half[thing], self.kind[thing], self.team[thing] = (half_x, half_y), kind, team
@@ -170,7 +170,7 @@ def judged(server, bots, trace_file):
             steps = sorted(((1e-6 * instant, bodies[thing], is_in) for instant, thing, is_in in line["changes_us"] if thing in bodies), key=lambda step: step[0])
             players.append(Player(bodies.get(line["bat"]), steps))
     samples = [line for line in bots if "entities_nm" in line]
-    looks = planned(head, server, samples)
+    looks = planned(head, server, samples, trace.begin_s)
     filtered, delivered, shown, stamped = Sets(), Sets(), [], []
     bytes_all, bytes_wasted, missed, contacts, before, looked, cells = 0, 0, 0, iter(trace.contacts), {}, None, {}
     contact = next(contacts, None)
@@ -267,7 +267,7 @@ def missed_in(contact, players):
     return missed
 
 
-def planned(head, server, samples):
+def planned(head, server, samples, begin_s):
     """All instants at which something is judged, in the order of time; what falls together in the order of the evidence."""
     step = min(LOOK_S, 0.125 / head["rate_hz"])
     looks, until, i = [], min(head["until_s"], head["end_s"]), 0
@@ -278,4 +278,4 @@ def planned(head, server, samples):
     for sample in samples:
         looks.append((sample["displayed_s"], "displayed", sample))
         looks.append((sample["matched_s"], "matched", sample))
-    return sorted((look for look in looks if 0.0 <= look[0] <= head["end_s"]), key=lambda look: look[0])
+    return sorted((look for look in looks if begin_s <= look[0] <= head["end_s"]), key=lambda look: look[0])

@@ -33,7 +33,7 @@ void TruthTrace::begin(const RelevanceArea& area, const Replay& replay) {
   }
   for (const physics::BodyKind kind : {physics::BodyKind::puck, physics::BodyKind::bat, physics::BodyKind::post})
     if (area.always && area.always->has(kind)) always.push_back(name_of(kind));
-  writer_.line({{"rink-truth", version}, {"shape", name_of(area.shape)}, {"reach", area.reach}, {"team", area.has_team}, {"always", always}, {"bats", bats}, {"bodies", bodies}});
+  writer_.line({{"rink-truth", version}, {"begin_s", replay.begin_s()}, {"shape", name_of(area.shape)}, {"reach", area.reach}, {"team", area.has_team}, {"always", always}, {"bats", bats}, {"bodies", bodies}});
 }
 
 void TruthTrace::look(double instant_s, const Replay& replay) {
