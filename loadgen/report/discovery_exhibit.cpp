@@ -20,7 +20,7 @@ constexpr Discovered discovered_kinds[] = {
     {"late-discovery", "Late discoveries", "From the true instant at which an entity became relevant to its first delivered state, of all that became relevant; what was in scope already is at the left edge. ",
      "nothing became relevant", &Discoveries::late_discovery},
     {"missed-contact", "Missed contacts", "From a contact of the player's bat with a body that the player did not know of to the next state of it, of all such contacts. ",
-     "nobody touched a body that he did not know of", &Discoveries::missed_contact}};
+     "no player touched a body that it did not know of", &Discoveries::missed_contact}};
 
 /// The delays of one cell that are drawn.
 struct DrawnDelays {
@@ -30,13 +30,20 @@ struct DrawnDelays {
   std::vector<SampleDistribution::Point> points;
 };
 
-std::vector<DrawnDelays> drawn_of(const Findings& findings, const Discovered& kind) {
-  const std::vector<CellLine> lines = plotted_lines(findings);
-  const std::vector<std::uint32_t> counts = client_counts(lines);
+/// The parts that have the largest number of clients of all, in the order of the experiment; one without a name if it has no parts.
+std::vector<std::string> parts_of_largest_crowds(const Findings& findings) {
+  std::vector<std::string> parts;
+  for (const CellLine& line : largest_crowds(findings.lines)) {
+    const std::string& part = line.groups.front().cell.part;
+    if (std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
+  }
+  return parts;
+}
+
+std::vector<DrawnDelays> drawn_of(const Findings& findings, const std::string& part, const Discovered& kind) {
   std::vector<DrawnDelays> all;
-  for (const CellLine& line : lines)
+  for (const CellLine& line : largest_crowds(plotted_lines(findings, part)))
     for (const CellGroup& group : line.groups) {
-      if (group.cell.clients != counts.back()) continue;
       const auto found = std::ranges::find(findings.discoveries, without_seed(group.cell), &CellDiscoveries::cell);
       if (found == findings.discoveries.end()) continue;
       const SampleDistribution& delays = found->discoveries.*kind.of;
@@ -67,9 +74,8 @@ std::pair<double, double> fractions_shown(const std::vector<PlotLine>& lines) {
   return {low, 1.0 + 0.03 * (1.0 - low)};
 }
 
-void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind) {
-  const std::vector<DrawnDelays> drawn = drawn_of(findings, kind);
-  if (drawn.empty()) return exhibit.add_absence(std::string(kind.title) + ": " + kind.none + ", so there is no plot.");
+void add_plot(Exhibit& exhibit, const Discovered& kind, const std::vector<DrawnDelays>& drawn) {
+  const std::string& part = drawn.front().group.cell.part;
   constexpr double least_ms = 1.0;
   double low = 1e9, high = 10.0 * least_ms;
   for (const DrawnDelays& each : drawn)
@@ -79,14 +85,14 @@ void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind
     }
   low = std::min(0.9 * low, 0.1 * high);
   const std::uint32_t clients = drawn.front().group.cell.clients;
-  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) + (clients == 1 ? " client" : " clients"), "delay, ms", "fraction discovered within", "", true, false, {}, {}, {}, {{low, high}}, {}};
-  PlotTable table{kind.name, std::string(kind.title) + ": the fraction of the sample that was discovered within the delay, all valid replications together", cell_columns()};
+  LinePlot plot{std::string(kind.title) + ", " + std::to_string(clients) + (clients == 1 ? " client" : " clients") + (part.empty() ? "" : ", " + part), "delay, ms", "fraction discovered within", "", true, false, {}, {}, {}, {{low, high}}, {}};
+  PlotTable table{kind.name + (part.empty() ? "" : "-" + part), std::string(kind.title) + ": the fraction of the sample that was discovered within the delay, all valid replications together", cell_columns()};
   table.columns.insert(table.columns.end(), {"delay_ms", "fraction", "samples", "never"});
   std::string never;
   for (const DrawnDelays& each : drawn) {
     std::vector<PlotPoint> points = stairs(each, low, high);
     const std::size_t last = points.size();
-    never += (never.empty() ? "" : ", ") + each.line.name + " " + std::to_string(each.delays->never()) + " of " + std::to_string(each.delays->samples());
+    if (each.delays->never() > 0) never += (never.empty() ? "" : ", ") + each.line.name + " " + std::to_string(each.delays->never()) + " of " + std::to_string(each.delays->samples());
     plot.lines.push_back({each.line.name, each.line.style, std::move(points), last});
     for (const SampleDistribution::Point& point : each.points) {
       auto row = cell_values(each.line, each.group);
@@ -95,8 +101,18 @@ void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind
     }
   }
   plot.y_range = fractions_shown(plot.lines);
-  plot.alternative = std::string(kind.meaning) + "Higher and farther left is better; the gap between a curve's right end and 1 is what was never discovered: " + never + ".";
+  plot.alternative = std::string(kind.meaning) + "Higher and farther left is better; the gap between a curve's right end and 1 is what was never discovered" + (never.empty() ? ", here nothing." : ": " + never + ".");
   exhibit.add(to_svg(plot), plot.alternative, std::move(table));
+}
+
+void add_kind(Exhibit& exhibit, const Findings& findings, const Discovered& kind) {
+  bool has_any = false;
+  for (const std::string& part : parts_of_largest_crowds(findings)) {
+    const std::vector<DrawnDelays> drawn = drawn_of(findings, part, kind);
+    if (!drawn.empty()) add_plot(exhibit, kind, drawn);
+    has_any = has_any || !drawn.empty();
+  }
+  if (!has_any) exhibit.add_absence(std::string(kind.title) + ": " + kind.none + ", so there is no plot.");
 }
 
 }  // namespace

@@ -41,12 +41,13 @@ std::vector<std::string> cell_values(const CellLine& line, const CellGroup& grou
   return {line.name, group.cell.mode, group.cell.scheme, group.cell.policy, std::to_string(group.cell.clients), std::to_string(group.runs.size())};
 }
 
-std::vector<CellLine> plotted_lines(const Findings& findings) {
+std::vector<CellLine> plotted_lines(const Findings& findings) { return plotted_lines(findings, findings.lines.empty() ? "" : findings.lines.front().groups.front().cell.part); }
+
+std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part) {
   constexpr std::size_t lines_max = 12;
   std::vector<CellLine> lines = findings.lines;
-  if (!findings.experiment.parts.empty() && !lines.empty()) {
-    const std::string first = lines.front().groups.front().cell.part;
-    std::erase_if(lines, [&first](const CellLine& line) { return line.groups.front().cell.part != first; });
+  if (!findings.experiment.parts.empty()) {
+    std::erase_if(lines, [&part](const CellLine& line) { return line.groups.front().cell.part != part; });
     name_and_style(lines);
   }
   if (lines.size() <= lines_max) return lines;

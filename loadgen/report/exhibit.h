@@ -52,6 +52,8 @@ std::vector<std::string> cell_columns();
 std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
 /// The lines that plots over clients draw: all, of several parts those of the first, or where a sweep makes too many to tell apart, those with the first value of every parameter.
 std::vector<CellLine> plotted_lines(const Findings& findings);
+/// The same of the part called `part`.
+std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part);
 /// Appends mean, low and high of `mean` to `row`, empty where absent.
 void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
 

@@ -85,9 +85,10 @@ TEST(SampleDistribution, ReadBackAsTheyWereWrittenAndNothingElseIsTaken) {
 class DiscoveryTable : public testing::Test {
  protected:
   /// A run of `scheme` whose discoveries lie in the folder.
-  void add(const std::string& scheme, std::uint64_t seed, const Discoveries& discoveries, std::uint32_t clients = 10) {
+  void add(const std::string& scheme, std::uint64_t seed, const Discoveries& discoveries, std::uint32_t clients = 10, const std::string& part = "") {
     RunRecord& run = runs_.emplace_back(record_for(small_experiment(), {"client-server", scheme, "periodic", clients, seed}));
     run.valid = true;
+    run.cell.part = part;
     write_discoveries(discovery_file(folder_.path(), run.cell), discoveries);
   }
 
@@ -132,12 +133,25 @@ TEST_F(DiscoveryTable, IsDrawnForTheLargestNumberOfClients) {
   ASSERT_EQ(exhibit.pictures.size(), 1u);
   EXPECT_THAT(exhibit.html, HasSubstr("grid: 10 of 40 never discovered (25.0 % never)"));
   EXPECT_THAT(exhibit.html, HasSubstr("region: 0 of 40 never discovered"));
-  EXPECT_THAT(exhibit.html, HasSubstr("what was never discovered: grid 10 of 40, region 0 of 40."));
+  EXPECT_THAT(exhibit.html, HasSubstr("what was never discovered: grid 10 of 40."));
   EXPECT_THAT(exhibit.html, Not(HasSubstr("95 of 100"))) << "of the smaller number of clients";
-  EXPECT_THAT(exhibit.html, HasSubstr("Missed contacts: nobody touched a body that he did not know of, so there is no plot."));
+  EXPECT_THAT(exhibit.html, HasSubstr("Missed contacts: no player touched a body that it did not know of, so there is no plot."));
   ASSERT_EQ(exhibit.tables.size(), 1u);
   EXPECT_EQ(exhibit.tables[0].name, "late-discovery");
   EXPECT_EQ(exhibit.tables[0].rows.size(), 31u + 41u) << "a point at nothing and one for each delay";
+}
+
+/// Side by side: what is late with a delay of 50 ms is not without one.
+TEST_F(DiscoveryTable, IsDrawnForEachPartOfTheLargestNumberOfClients) {
+  add("region", 1, {evenly(30, 10), {}}, 20, "late");
+  add("region", 1, {evenly(40, 0), {}}, 20, "prompt");
+  add("region", 1, {evenly(5, 95), {}}, 2, "smaller");
+  Experiment experiment = small_experiment();
+  for (const char* part : {"late", "prompt", "smaller"}) experiment.parts.push_back(small_experiment()), experiment.parts.back().part = part;
+  const auto cells = discoveries_in(folder_.path(), runs_);
+  const Exhibit exhibit = discovery_exhibit({experiment, runs_, {}, lines_of(runs_), "x", cells});
+  EXPECT_THAT(exhibit.tables, testing::ElementsAre(testing::Field(&PlotTable::name, "late-discovery-late"), testing::Field(&PlotTable::name, "late-discovery-prompt")));
+  EXPECT_THAT(exhibit.html, testing::AllOf(HasSubstr("Late discoveries, 20 clients, late"), HasSubstr("what was never discovered: region 10 of 40."), HasSubstr("what was never discovered, here nothing.")));
 }
 
 }  // namespace
