@@ -42,6 +42,21 @@ TEST_F(ReportFolder, IsRepeatedWithTheSameFiguresThoughSceneAndExperimentHaveGon
   EXPECT_EQ(run("compare --from " + file("second") + " --out " + file("third")), 0) << "what repeats is a report folder itself: " << said_;
 }
 
+TEST_F(ReportFolder, OfRunsThatStartWarmHoldsTheirSavedGamesAndIsRepeatedFromThem) {
+  write("small.toml", content("small.toml") + "start_s = 2\n[[parts]]\nname = 'warm'\n[[parts]]\nname = 'warmer'\nstart_s = 3\n");
+  ASSERT_EQ(make(), 0) << said_;
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time say the same in every figure"));
+  std::vector<std::string> saved;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "first/keys"))
+    if (entry.path().extension() == ".state") saved.push_back("first/keys/" + entry.path().filename().string());
+  ASSERT_EQ(saved.size(), 2u) << "a game for each part";
+  EXPECT_NE(content(saved[0]), content(saved[1]));
+  write(saved[1], content(saved[1]) + " ");
+  EXPECT_EQ(repeat(), 10);
+  EXPECT_THAT(said_, HasSubstr(file(saved[1]) + ": altered since the report was written"));
+}
+
 TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun) {
   ASSERT_EQ(make(), 0) << said_;
   replace("first/runs.jsonl", "\"update_age_samples\":", "\"update_age_samples\":1");
