@@ -158,6 +158,8 @@ TEST(Schedule, IsNotKeptOnceSoManyLateKeysCannotBeChance) {
   EXPECT_EQ(trouble(1, 50), "");
   EXPECT_EQ(trouble(3, 50), "");
   EXPECT_EQ(trouble(4, 50), "4 of 50 keys went out more than 10 ms late");
+  EXPECT_EQ(trouble(18, 1'000), "");
+  EXPECT_EQ(trouble(19, 1'000), "19 of 1000 keys went out more than 10 ms late");
   EXPECT_EQ(trouble(1'050, 100'000), "") << "1.6 standard deviations";
   EXPECT_NE(trouble(1'100, 100'000), "") << "3.2";
 }

@@ -136,11 +136,38 @@ TEST(RunRecord, EachWayToFailMakesARunInvalidAndSaysWhy) {
   EXPECT_THAT(reason([](auto& s, auto&) { s["dropped_connections"] = 2; }), HasSubstr("2 connections dropped"));
   EXPECT_THAT(reason([](auto&, auto& b) { b["federates_lost"] = 3; }), HasSubstr("3 clients lost by the bots"));
   EXPECT_THAT(reason([](auto&, auto& b) { b["keys_sent"] = 69; }), HasSubstr("69 of 70"));
-  EXPECT_THAT(reason([](auto& s, auto&) { s["clients"] = 9; }), HasSubstr("is 9 instead of 10"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["clients"] = 9; }), HasSubstr("the server's clients is 9 instead of 10"));
+  EXPECT_THAT(reason([](auto&, auto& b) { b["clients"] = 11; }), HasSubstr("the bots' clients is 11 instead of 10"));
+  EXPECT_THAT(reason([](auto& s, auto&) { s["tick_rate_hz"] = 29.0; }), HasSubstr("the server's tick_rate_hz is 29 instead of 30"));
   EXPECT_THAT(reason([](auto& s, auto&) { s.erase("physics_us_per_tick"); }), HasSubstr("physics_us_per_tick"));
   EXPECT_THAT(reason([](auto& s, auto&) { s["measured_s"] = 0.0; }), HasSubstr("nothing was measured"));
   EXPECT_THAT(reason([](auto&, auto& b) { b["update_age_ms"] = {1, 2}; }), HasSubstr("a histogram"));
   EXPECT_THAT(reason([](auto& s, auto&) { s = nlohmann::json::array(); }), HasSubstr("the report of the server"));
+}
+
+TEST(RunRecord, OfARunThatDoesNotCountEveryReasonIsGiven) {
+  nlohmann::json server = canned_server_report(cell), bots = canned_bots_report(cell);
+  server["valid"] = false, server["why_invalid"] = "no time";
+  server["lost_federates"] = 1, server["total_bytes_sent"] = 0;
+  bots["keys_sent"] = 69, bots["valid"] = false, bots["why_invalid"] = "tired";
+  const RunRecord record = judged(server, bots);
+  EXPECT_FALSE(record.valid);
+  for (const char* reason : {"the server: no time", "the bots: tired", "1 clients lost by the server", "sent by the server: 0 B counted", "only 69 of 70 due keys were sent"})
+    EXPECT_THAT(record.why_invalid, HasSubstr(reason));
+}
+
+/// Among peers the reports add up all their processes, so that there is one count of each kind; 1 % of it and 128 bytes for each peer may be on their way.
+TEST(RunRecord, OfPeersTheBytesOfAllTheirConnectionsTogetherAreHeldAgainstTheKernels) {
+  Cell peers = cell;
+  peers.mode = peer_mode;
+  const double kernel = 1'000'000.0, limit = 0.01 * kernel + 128.0 * peers.clients;
+  for (const double part : {0.99, 1.01}) {
+    nlohmann::json server = canned_server_report(peers);
+    server["kernel_bytes_sent"] = kernel, server["total_bytes_sent"] = kernel + part * limit;
+    RunRecord record = record_for(small_experiment(), peers);
+    judge(record, server, canned_bots_report(peers));
+    EXPECT_EQ(record.valid, part < 1.0) << record.why_invalid;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What figures per second are divided by: n ticks over the n periods that they begin, in whichever way a game is played.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +13,7 @@
 #include "loadgen/game_plan.h"
 #include "loadgen/peer_report.h"
 #include "loadgen/peer_run.h"
+#include "loadgen/process.h"
 #include "loadgen/virtual_run.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
@@ -79,6 +82,20 @@ TEST_F(SpanTest, RatesOfASteadyStreamDoNotDependOnHowLongItIsWatched) {
   }
 }
 
+/// At 20 Hz 0.26 s falls between ticks 5 and 6 and 0.26 + 1.01 s after tick 25, which is the last, ends the game and is not counted: 6 to 24, and 19 periods.
+TEST_F(SpanTest, WhereWarmUpAndDurationAreNoMultiplesOfATickTheSpanBeginsAndEndsOnTicks) {
+  experiment_.warm_up_s = 0.26, experiment_.duration_s = 1.01;
+  const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
+  const game::Scene scene = scene_of(experiment_, cell());
+  const auto bodies = static_cast<double>(scene.bodies.bats.size() + scene.bodies.pucks.size());
+  EXPECT_EQ(record.ticks, 19u);
+  EXPECT_NEAR(*record.measured_s, 19 / 20.0, 1e-9);
+  EXPECT_NEAR(*record.messages_per_s, 4 * bodies * 20.0, 1e-6);
+  EXPECT_EQ(record.update_age_samples, 4u * 20u) << "clients count by stamps: that of tick 25 is before 1.27 s";
+  EXPECT_NEAR(report("bots")["measured_s"].get<double>(), 1.01, 1e-9) << "their own counters they read by their clock";
+  EXPECT_EQ(record.entities, scene.bodies.bats.size() + scene.bodies.pucks.size() + scene.bodies.posts.size());
+}
+
 TEST_F(SpanTest, OverSocketsAsManyTicksAreCountedAndSentAsInVirtualTime) {
   experiment_.transport = TransportKind::tcp;
   experiment_.duration_s = 0.4;
@@ -143,6 +160,39 @@ TEST_F(SpanTest, EvidenceHasTheCostOfEachMeasuredTickAndOfNoOther) {
   EXPECT_DOUBLE_EQ(evidence.ticks.front().simulated_s, 0.25);
   EXPECT_DOUBLE_EQ(evidence.ticks.back().simulated_s, 1.2);
   EXPECT_DOUBLE_EQ(evidence.end_s, 1.25) << "the game goes on to the end";
+}
+
+/// The server's own means beside what it noted of each tick, and the processes' costs beside what the kernel says of them.
+TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
+  experiment_.transport = TransportKind::tcp;
+  experiment_.duration_s = 0.5;
+  settings_.wants_truth = true;
+  const RunRecord record = sound(run_cell(settings_, experiment_, cell(), no_keys()));
+  const game::ServerEvidence evidence = game::read_server_evidence((folder_ / (name_of(cell()) + ".server.jsonl")).string());
+  ASSERT_EQ(evidence.ticks.size(), 10u);
+  double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, longest_s = 0.0;
+  for (const game::ServerEvidence::Tick& tick : evidence.ticks) {
+    physics_s += tick.physics_s, filter_s += tick.filter_s, send_s += tick.send_s;
+    longest_s = std::max(longest_s, tick.physics_s + tick.filter_s + tick.send_s);
+  }
+  constexpr double rounding_us = 1e-3;  // the file has nanoseconds
+  EXPECT_NEAR(*record.physics_us_per_tick, 1e6 * physics_s / 10, rounding_us);
+  EXPECT_NEAR(*record.filter_us_per_tick, 1e6 * filter_s / 10, rounding_us);
+  EXPECT_NEAR(*record.send_us_per_tick, 1e6 * send_s / 10, rounding_us);
+  EXPECT_NEAR(*record.tick_us.max, 1e6 * longest_s, 2 * rounding_us);
+  EXPECT_FALSE(record.tick_us.p50) << "ten ticks";
+  const double processors = static_cast<double>(allowed_processors().size());
+  ASSERT_TRUE(record.health.bots_cpu_share);
+  EXPECT_GT(*record.health.bots_cpu_share, 0.0);
+  EXPECT_LE(*record.health.bots_cpu_share * 0.5 * processors, *record.bots_cpu_s + 0.02) << "a part of what the process used from start to end, but for the kernel's 10 ms";
+  EXPECT_NEAR(*record.nodes.mean_cpu_s, (*record.server_cpu_s + *record.bots_cpu_s) / (1 + 4), 1e-12) << "the nodes are the server and four bots";
+  EXPECT_EQ(record.nodes.busiest_cpu_s, record.server_cpu_s);
+  EXPECT_GT(*record.health.histogram_ns_per_record, 0.1);
+  EXPECT_LT(*record.health.histogram_ns_per_record, 1e5);
+  rusage children{};
+  ASSERT_EQ(getrusage(RUSAGE_CHILDREN, &children), 0);
+  EXPECT_LE(static_cast<double>(*record.server_rss_bytes), 1024.0 * static_cast<double>(children.ru_maxrss)) << "never more than the largest of the two ever had";
+  EXPECT_GT(*record.server_rss_bytes, 1'000'000u);
 }
 
 /// Under `on-event` most ticks have nothing to say to most players, and whoever flies into the view of one is said with a stamp of long ago.

@@ -4,10 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "areas.h"
 #include "game/model/random_stream.h"
@@ -144,6 +148,12 @@ TEST(ScopeChanges, CountEntriesExitsAndFlapsWithinTheSpan) {
   EXPECT_EQ(changes.flaps, 1u) << "back after 0.7 s, and after 1.5 s";
 }
 
+TEST(ScopeChanges, AnEntryIsAFlapIfTheEntityHadLeftLessThanASecondBefore) {
+  const auto flaps = [](double away_s) { return count_changes(std::vector<ScopeStep>{{-1.0, 1, true}, {1.0, 1, false}, {1.0 + away_s, 1, true}}, 9, 0.0, 5.0).flaps; };
+  EXPECT_EQ(flaps(1.0 - 1e-6), 1u);
+  EXPECT_EQ(flaps(1.0), 0u);
+}
+
 /// An entity on a line at 1 m/s towards an observer at rest: its depth grows by the second, from -1 at 0 s.
 struct Approach {
   static constexpr double look_s = 0.3;
@@ -201,6 +211,30 @@ TEST(Sampling, TheSameSeedLooksAtTheSamePlayersAndInstants) {
   ASSERT_EQ(instants.size(), 30u);
   for (std::size_t i = 0; i < instants.size(); ++i) EXPECT_EQ(std::floor((instants[i] - 0.5) / 0.1), static_cast<double>(i)) << "one from each tenth of a second";
   EXPECT_NE(instants, game::sampled_instants(settings, 2));
+}
+
+TEST(Sampling, LooksTenTimesASecondButAtLeastTwentyAndAtMostAHundredTimesOnceInEachEqualPart) {
+  for (const auto& [span_s, count] : {std::pair{0.5, 20u}, {2.0, 20u}, {2.5, 25u}, {7.0, 70u}, {10.0, 100u}, {60.0, 100u}}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const std::vector<double> instants = game::sampled_instants({.seed = seed, .clients = 5, .from_s = 1.0, .until_s = 1.0 + span_s}, 1);
+      ASSERT_EQ(instants.size(), count) << span_s << " s, seed " << seed;
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(std::floor((instants[i] - 1.0) * count / span_s), static_cast<double>(i)) << span_s << " s, seed " << seed;
+    }
+  }
+}
+
+TEST(Sampling, LooksAtAllPlayersUpToThirtyTwoAndAtDifferentOnesOfMore) {
+  const auto players = [](std::uint64_t seed, std::uint32_t clients) {
+    std::vector<std::uint32_t> sampled = game::sampled_players({.seed = seed, .clients = clients});
+    std::ranges::sort(sampled);
+    EXPECT_EQ(std::ranges::adjacent_find(sampled), sampled.end()) << "nobody twice";
+    EXPECT_LT(sampled.back(), clients);
+    return sampled;
+  };
+  for (const std::uint32_t clients : {1u, 31u, 32u}) EXPECT_EQ(players(1, clients).size(), clients);
+  EXPECT_EQ(players(1, 33).size(), 32u);
+  EXPECT_EQ(players(1, 1000).size(), 32u);
+  EXPECT_NE(players(1, 1000), players(2, 1000));
 }
 
 }  // namespace
