@@ -3,12 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "game/model/scene_file.h"
+#include "game/net/evidence.h"
 #include "game/net/fom_file.h"
 #include "game/net/serving.h"
 #include "game/replication/trajectory_codec.h"
@@ -25,8 +31,13 @@ class OneRead final : public rti::Transport, private rti::TransportListener {
   void poll(std::chrono::nanoseconds longest_wait, rti::TransportListener& listener) override {
     listener_ = &listener;
     inner_.poll(longest_wait, *this);
-    for (auto& [connection, bytes] : std::exchange(waiting_, {})) listener.on_bytes(connection, bytes);
+    for (auto& [connection, bytes] : std::exchange(waiting_, {})) {
+      const std::size_t now = bytes.size() - std::min(held_back, bytes.size());
+      if (now > 0) listener.on_bytes(connection, std::span(bytes).first(now));
+      if (now < bytes.size()) waiting_[connection].assign(bytes.begin() + static_cast<std::ptrdiff_t>(now), bytes.end());
+    }
   }
+  std::size_t held_back = 0;  ///< bytes at the end of each connection's that only the next poll brings
   void send(rti::ConnectionId connection, std::span<const rti::Bytes> parts) override { inner_.send(connection, parts); }
   void close(rti::ConnectionId connection) override { inner_.close(connection); }
   rti::TransportCounters counters(rti::ConnectionId connection) const override { return inner_.counters(connection); }
@@ -80,6 +91,13 @@ class StalledCrowd : public testing::Test {
     network_.advance_to(network_.now_ns());
     serving_.exchange(0.0);
   }
+  /// What the server noted of a game of 2 s, of each kind at most `record_max`.
+  game::ServerEvidence noted(std::size_t record_max) {
+    start({}, 0.0, 2.0);
+    serving_.collect_evidence({.seed = 1, .clients = bots, .from_s = 0.0, .until_s = 2.0, .record_max = record_max}, rate_hz);
+    play(2.0);
+    return serving_.evidence().value();
+  }
   const Measurements& measured() const { return crowd_->measurements(); }
   static game::InputEvent key(double instant_s) { return {.time = instant_s, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}; }
 
@@ -117,6 +135,19 @@ TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
   EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9) << "and none of the others waited";
   play(1.98);
   EXPECT_EQ(measured().update_age.count(), 100u * bots) << "clients x ticks";
+}
+
+/// The last byte of tick 20 comes 12 ms after the others, and until then nothing of it can be applied.
+TEST_F(StalledCrowd, ATickThatIsReadInPiecesCountsOnceWhenItIsWhole) {
+  start({}, 0.0, 2.0);
+  play(0.38);
+  reads_.held_back = 1;
+  play(0.4);
+  EXPECT_EQ(measured().update_age.count(), 20u * bots);
+  reads_.held_back = 0;
+  run_until(0.412);
+  EXPECT_EQ(measured().update_age.count(), 21u * bots);
+  EXPECT_NEAR(measured().update_age.max_s(), 0.012, 1e-9);
 }
 
 /// The process is not run for 200 ms; the key that was due at the beginning of that goes out late, and whoever counts from then hides the stall.
@@ -182,6 +213,24 @@ TEST_F(StalledCrowd, WhatHappensBeforeTheSpanOrAtItsEndIsNotCounted) {
   std::uint64_t by_bot = 0;
   for (const std::uint64_t bytes : crowd_->bytes_received_by_bot()) by_bot += bytes;
   EXPECT_EQ(by_bot, within.bytes_received);
+}
+
+/// Of a span of 2 s at 50 Hz there are 100 ticks and, of both players, the decisions at 20 instants.
+TEST_F(StalledCrowd, TheServerNotesAllOfItsRunWhereThereIsRoom) {
+  const game::ServerEvidence evidence = noted(1'000'000);
+  EXPECT_EQ(evidence.ticks.size(), 100u);
+  EXPECT_EQ(evidence.decisions.size(), 20u * bots);
+  EXPECT_GE(evidence.in_scope.size(), 3u * evidence.decisions.size()) << "the puck and both bats";
+}
+
+TEST_F(StalledCrowd, TheServerNotesNoMoreTicksAndDecisionsThanThereIsRoomFor) {
+  constexpr std::size_t record_max = 30;
+  const game::ServerEvidence evidence = noted(record_max);
+  EXPECT_EQ(evidence.ticks.size(), record_max);
+  EXPECT_LE(evidence.in_scope.size(), 2 * record_max) << "objects of all decisions together";
+  std::map<std::uint32_t, int> by_player;
+  for (const game::ServerEvidence::Decision& decision : evidence.decisions) ++by_player[decision.player];
+  EXPECT_EQ(by_player.size(), bots) << "one player at a time, in turn";
 }
 
 }  // namespace

@@ -149,6 +149,21 @@ TEST_F(PeerRunTest, GivesTheSameBytesAgain) {
   EXPECT_EQ(texts[0], texts[1]);
 }
 
+/// Of two nodes each sends what the other receives, so both carry all that goes between them; of more the busiest carries at least its share, which is twice that of one direction.
+TEST_F(PeerRunTest, TheBusiestNodeCarriesWhatItSendsAndReceives) {
+  for (const std::uint32_t peers : {2u, 9u}) {
+    experiment_.clients = {peers};
+    const RunRecord record = run(cells_of(experiment_).back());
+    const double all = peers * *record.up_bytes_per_client_per_s;
+    EXPECT_EQ(record.up_bytes_per_client_per_s, record.down_bytes_per_client_per_s);
+    if (peers == 2) EXPECT_NEAR(*record.nodes.busiest_bytes_per_s, all, 1e-9 * all);
+    else EXPECT_GT(*record.nodes.busiest_bytes_per_s, 2.0 * all / peers);
+    EXPECT_LE(*record.nodes.busiest_bytes_per_s, all);
+    EXPECT_FALSE(record.nodes.busiest_cpu_s || record.nodes.mean_cpu_s) << "under a virtual clock";
+    EXPECT_EQ(record.ticks, 40u);
+  }
+}
+
 TEST_F(PeerRunTest, OnePeerPlaysAloneAndSaysNothing) {
   experiment_.clients = {1};
   const RunRecord record = run(cells_of(experiment_).back());

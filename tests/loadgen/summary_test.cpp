@@ -104,6 +104,17 @@ TEST(Summary, GamesAgreeUnlessTwoValidRunsOfOneSeedDiffer) {
   EXPECT_EQ(agreement_of(some).games, 0u);
 }
 
+TEST(Summary, GamesOfAPopulationThatFollowsTheClientsAreHeldAgainstEachOtherAtEachNumberOfClients) {
+  std::vector<RunRecord> some{run("none", 10, 1, 1), run("grid", 10, 1, 1), run("none", 20, 1, 1), run("grid", 20, 1, 1)};
+  some[2].state_hash = some[3].state_hash = "more bats";
+  EXPECT_EQ(agreement_of(some).differing.size(), 1u) << "a fixed population plays one game whoever looks on";
+  for (RunRecord& record : some) record.population = "per_client";
+  EXPECT_EQ(agreement_of(some).games, 2u);
+  EXPECT_TRUE(agreement_of(some).differing.empty());
+  some[3].state_hash = "odd";
+  EXPECT_EQ(agreement_of(some).differing.size(), 1u);
+}
+
 TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
   std::istringstream csv(to_csv(summarise(runs)));
   std::string header, none, grid, rest;

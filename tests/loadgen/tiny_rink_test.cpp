@@ -159,6 +159,18 @@ TEST_F(TinyRink, ByAnExpressionAnEntryIsDatedByTheLookThatFoundIt) {
   EXPECT_EQ(truth.relevance, "whoever 'region and not owner' lets through, of a square of 2 m around the bat");
 }
 
+/// Looks are 4 ms apart, or an eighth of a tick if that is less, from the beginning of the measured span on; the first one from 0.9 s on dates the entry.
+TEST_F(TinyRink, LooksAreFourMillisecondsOrAnEighthOfATickApart) {
+  bots_.bots[0].changes.push_back({1.25, 100 + flying, true});
+  server_.from_s = 0.0051;
+  for (const auto& [rate_hz, apart_s] : {std::pair{10.0, 0.004}, {30.0, 0.004}, {50.0, 0.0025}, {100.0, 0.00125}}) {
+    server_.rate_hz = rate_hz;
+    const double found_s = server_.from_s + apart_s * std::ceil((0.9 - server_.from_s) / apart_s);
+    const TruthFigures truth = judged({.shape = RelevanceArea::Shape::filter, .reach = view_half_side, .expression = "region and not owner"});
+    EXPECT_NEAR(*truth.late_entry_ms.max, 1e3 * (1.25 - found_s), 1e-6) << rate_hz << " Hz";
+  }
+}
+
 /// It leaves for half a second, then for longer than a second: one flap in three entries.
 TEST_F(TinyRink, FlappingIsThePartOfEntriesThatFollowALeavingWithinASecond) {
   const std::pair<double, bool> steps[] = {{0.5, true}, {1.0, false}, {1.5, true}, {2.0, false}, {3.5, true}};
@@ -351,6 +363,9 @@ TEST_F(TinyRink, SpoiltEvidenceCostsTheFiguresOfTruthAndNothingElse) {
                 std::filesystem::remove(bots_file);
                 return text;
               }), HasSubstr("bots.jsonl: cannot be read"));
+  bots_.is_complete = false;
+  EXPECT_THAT(trouble([](const std::string& text) { return text; }), HasSubstr("bots.jsonl: more scopes changed than there was room for"));
+  bots_.is_complete = true;
   server_.state_hash ^= 1;
   const RunRecord other = judged_with([](std::string text) { return text; });
   EXPECT_FALSE(other.valid);

@@ -4,16 +4,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <set>
+#include <span>
+#include <vector>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
+#include "game/net/evidence.h"
 #include "loadgen/bots_evidence.h"
 #include "loadgen/campaign.h"
 #include "loadgen/game_plan.h"
@@ -262,6 +268,34 @@ TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
   EXPECT_EQ(server["scope_exits"], exits);
 }
 
+/// Without delay a player's mirror follows each decision at once, so at any instant it has in scope what the decision in force then let through.
+TEST_F(VirtualRunTest, TheDecisionInForceIsThatOfTheNewestTick) {
+  experiment_.schemes = {"region"};
+  experiment_.delay_ms = 0.0;
+  settings_.wants_truth = true;
+  run(first_cell());
+  const std::string stem = (folder_ / name_of(first_cell())).string();
+  const game::ServerEvidence server = game::read_server_evidence(stem + ".server.jsonl");
+  const BotsEvidence bots = read_bots_evidence(stem + ".bots.jsonl");
+  const game::Game game(scene_of(experiment_, first_cell()));
+  ASSERT_EQ(server.decisions.size(), 20u * 6u) << "20 instants of 6 players";
+  std::set<std::vector<std::uint32_t>> different;
+  for (const game::ServerEvidence::Decision& decision : server.decisions) {
+    const std::uint32_t body = game.bat(decision.player)->index;
+    const std::uint32_t bat = std::ranges::find(server.objects, body, &game::ServerEvidence::Naming::body)->object;
+    std::set<std::uint32_t> mirrored, decided(server.scope_of(decision).begin(), server.scope_of(decision).end());
+    for (const BotsEvidence::ScopeChange& change : std::ranges::find(bots.bots, bat, &BotsEvidence::Bot::object)->changes) {
+      if (change.instant_s > decision.instant_s) break;
+      if (change.is_in) mirrored.insert(change.object);
+      else mirrored.erase(change.object);
+    }
+    decided.erase(bat), mirrored.erase(bat);
+    ASSERT_EQ(decided, mirrored) << "player " << decision.player << " at " << decision.instant_s << " s";
+    different.emplace(decided.begin(), decided.end());
+  }
+  EXPECT_GT(different.size(), 60u) << "or the test shows nothing";
+}
+
 /// A window of 50 ms before a sample holds one tick at 20 Hz, which says each body that moves in 8 bytes of values.
 TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
   experiment_.schemes = {"none"};
@@ -275,6 +309,11 @@ TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
   EXPECT_LE(*sizes.rbegin(), 16u) << "two f32, and a bat's count of keys";
   EXPECT_EQ(std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes == 8u; }),
             std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
+  for (const BotsEvidence::Sample& sample : bots.samples) {
+    const auto beliefs = std::span(bots.beliefs).subspan(sample.first, sample.last - sample.first);
+    EXPECT_EQ(sample.window_s, 0.05);
+    EXPECT_GT(std::ranges::count_if(beliefs, [](const auto& belief) { return belief.bytes > 0; }), static_cast<std::ptrdiff_t>(beliefs.size()) * 9 / 10) << "all that move, at " << sample.displayed_s;
+  }
   EXPECT_GT(*record.truth.wasted_bytes_fraction, 0.5) << "each sees a twentieth of the field";
 }
 
