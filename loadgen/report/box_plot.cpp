@@ -11,7 +11,7 @@
 namespace rink::loadgen {
 namespace {
 
-constexpr double row_height = 17.0, group_height = 22.0;
+constexpr double row_height = 17.0, name_height = 14.0, group_height = 22.0;
 
 double median_of(std::span<const double> sorted) {
   const std::size_t half = sorted.size() / 2;
@@ -69,12 +69,15 @@ BoxFigures box_of(std::vector<double> sample) {
 }
 
 std::string to_svg(const BoxPlot& plot) {
-  double names_width = 0.0, height = 4.0;
+  double names_width = 0.0, height = 4.0, rows = 0.0;
   for (const BoxPlot::Group& group : plot.groups) {
-    height += (group.name.empty() ? 6.0 : group_height) + row_height * static_cast<double>(group.rows.size());
-    for (const BoxPlot::Row& row : group.rows) names_width = std::max(names_width, text_width(row.name));
+    height += group.name.empty() ? 6.0 : group_height;
+    for (const BoxPlot::Row& row : group.rows) ++rows, names_width = std::max(names_width, text_width(row.name));
   }
-  const Frame frame{std::min(names_width + 14.0, 0.6 * plot.width), plot.width - 14.0, 28.0, 28.0 + height};
+  const bool are_names_above = names_width + 14.0 > 0.6 * plot.width;  // long ones would leave no room for the data
+  const double above = are_names_above ? name_height : 0.0;
+  height += rows * (row_height + above);
+  const Frame frame{are_names_above ? 14.0 : names_width + 14.0, plot.width - 14.0, 28.0, 28.0 + height};
   Axis x = value_axis(plot);
   x.from = frame.left, x.to = frame.right;
   std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) + svg_x_axis(frame, x, ticks_of(x, 40.0), plot.x_title, true);
@@ -83,8 +86,9 @@ std::string to_svg(const BoxPlot& plot) {
     y += group.name.empty() ? 6.0 : group_height;
     if (!group.name.empty()) svg += svg_text(0.0, y - 6.0, "axis", group.name);
     for (const BoxPlot::Row& row : group.rows) {
-      svg += svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0, "tick end", row.name) + svg_row(row, x, y + 0.5 * row_height);
-      y += row_height;
+      svg += are_names_above ? svg_text(0.0, y + 11.0, "tick", fitted(row.name, plot.width)) : svg_text(frame.left - 8.0, y + 0.5 * row_height + 4.0, "tick end", row.name);
+      svg += svg_row(row, x, y + above + 0.5 * row_height);
+      y += row_height + above;
     }
   }
   return svg + "</svg>\n";

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace rink::loadgen {
 namespace {
@@ -72,9 +75,19 @@ struct Box {
   bool overlaps(const Box& other) const { return left < other.right && other.left < right && top < other.bottom && other.top < bottom; }
 };
 
+/// Of a line of 10.5 px letters whose left end is at (left, middle).
+Box note_box(double left, double middle, const std::string& words) { return {left, middle - 6.0, left + 0.85 * text_width(words), middle + 6.0}; }
+
+/// Whether `box` lies within the frame and on nothing that is `taken`; if so it is taken too.
+bool takes_place(const Box& box, const Axis& x, const Axis& y, std::vector<Box>& taken) {
+  const bool is_inside = x.from <= box.left && box.right <= x.to && y.to <= box.top && box.bottom <= y.from;
+  if (!is_inside || std::any_of(taken.begin(), taken.end(), [&box](const Box& other) { return box.overlaps(other); })) return false;
+  taken.push_back(box);
+  return true;
+}
+
 /// Aslant of its mark, where no error bar runs, or else beside it, wherever nothing stands yet; left out if all places are taken.
-std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y) {
-  std::vector<Box> taken;
+std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y, std::vector<Box> taken) {
   const auto for_each_shown = [&](const auto& visit) {
     for (const PlotLine& line : plot.lines)
       for (const PlotPoint& point : line.points)
@@ -87,10 +100,7 @@ std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y) {
     const double width = 0.85 * text_width(label);
     const double right = px + 6.0, on_left = px - 6.0 - width;
     for (const auto& [left, middle] : {std::pair{right, py - 8.0}, {right, py + 9.0}, {on_left, py - 8.0}, {on_left, py + 9.0}, {right + 2.0, py}, {on_left - 2.0, py}}) {
-      const Box box{left, middle - 6.0, left + width, middle + 6.0};
-      const bool is_inside = x.from <= box.left && box.right <= x.to && y.to <= box.top && box.bottom <= y.from;
-      if (!is_inside || std::any_of(taken.begin(), taken.end(), [&box](const Box& other) { return box.overlaps(other); })) continue;
-      taken.push_back(box);
+      if (!takes_place(note_box(left, middle, label), x, y, taken)) continue;
       svg += svg_text(left, middle + 4.0, "note", label);
       return;
     }
@@ -98,17 +108,22 @@ std::string labels_of(const LinePlot& plot, const Axis& x, const Axis& y) {
   return svg;
 }
 
-std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y) {
+/// Each curve's name stands where it begins or, if another's does already, farther along it; left out if there is no place at all.
+std::string references_of(const LinePlot& plot, const Axis& x, const Axis& y, std::vector<Box>& taken) {
   std::string svg;
   for (const ReferenceCurve& curve : plot.references) {
     std::string path;
-    double start_x = 0.0, start_y = 0.0;
+    std::vector<std::pair<double, double>> places;
     for (const auto& [value_x, value_y] : curve.points) {
       if (!is_shown(plot, value_x, value_y) || value_x < x.low || value_x > x.high || value_y < y.low || value_y > y.high) continue;
-      if (path.empty()) start_x = x.at(value_x), start_y = y.at(value_y);
-      path += (path.empty() ? "M" : "L") + coordinate(x.at(value_x)) + " " + coordinate(y.at(value_y));
+      const double px = x.at(value_x), py = y.at(value_y);
+      path += (path.empty() ? "M" : "L") + coordinate(px) + " " + coordinate(py);
+      places.emplace_back(px + 6.0, py + 6.0);
     }
-    if (path.find('L') != std::string::npos) svg += svg_path(path, "reference") + svg_text(start_x + 6.0, start_y + 10.0, "note", curve.name);
+    if (places.size() < 2) continue;
+    svg += svg_path(path, "reference");
+    const auto place = std::ranges::find_if(places, [&](const auto& at) { return takes_place(note_box(at.first, at.second, curve.name), x, y, taken); });
+    if (place != places.end()) svg += svg_text(place->first, place->second + 4.0, "note", curve.name);
   }
   return svg;
 }
@@ -135,7 +150,9 @@ std::string to_svg(const LinePlot& plot) {
   std::string svg = svg_opening(plot.width, frame.bottom + 42.0, plot.title, plot.alternative) + legend;
   svg += svg_y_axis(frame, y, ticks_of(y, 26.0), plot.y_title);
   svg += svg_x_axis(frame, x, plot.x_ticks ? *plot.x_ticks : ticks_of(x, 40.0), plot.x_title);
-  return svg + references_of(plot, x, y) + data_of(plot, x, y) + labels_of(plot, x, y) + "</svg>\n";
+  std::vector<Box> taken;
+  svg += references_of(plot, x, y, taken);
+  return svg + data_of(plot, x, y) + labels_of(plot, x, y, taken) + "</svg>\n";
 }
 
 }  // namespace rink::loadgen

@@ -24,7 +24,7 @@ struct PlotLine {
   std::size_t mark_stride = 1;  ///< every so many points have a mark, at least 1
 };
 
-/// A faint curve to read the data against, named where it begins.
+/// A faint curve to read the data against, named where it begins or, where another name stands already, farther along.
 struct ReferenceCurve {
   std::string name;
   std::vector<std::pair<double, double>> points;

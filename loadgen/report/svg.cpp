@@ -21,6 +21,8 @@ std::string outline(std::size_t shape) {
   }
 }
 
+constexpr double title_size = 1.35;  // of a title's letters, which are larger and bold, to others
+
 }  // namespace
 
 std::string coordinate(double value) {
@@ -57,17 +59,35 @@ double text_width(const std::string& text) {
   return 6.9 * static_cast<double>(letters);
 }
 
+std::string fitted(const std::string& text, double width) {
+  if (text_width(text) <= width) return text;
+  std::vector<std::string> letters;
+  for (const char byte : text) {
+    if ((byte & 0xC0) != 0x80) letters.emplace_back();
+    if (!letters.empty()) letters.back() += byte;
+  }
+  const std::size_t kept = static_cast<std::size_t>(std::max(width / text_width("x"), 2.0)) - 1, head = kept / 2;
+  std::string result;
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    if (i < head || i + (kept - head) >= letters.size()) result += letters[i];
+    if (i == head) result += "\xE2\x80\xA6";
+  }
+  return result;
+}
+
 std::string svg_opening(double width, double height, const std::string& title, const std::string& alternative) {
   return "<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height) + "\" role=\"img\" aria-label=\"" + escaped(title + ". " + alternative) +
-         "\" xmlns=\"http://www.w3.org/2000/svg\">\n" + svg_text(0.0, 15.0, "title", title);
+         "\" xmlns=\"http://www.w3.org/2000/svg\">\n" + svg_text(0.0, 15.0, "title", fitted(title, width / title_size));
 }
 
 std::string svg_legend(const std::vector<LegendEntry>& entries, double left, double width, double top, double& height) {
   constexpr double row = 17.0, sample = 26.0, gap = 16.0;
+  const double room = width - sample - 6.0;
   std::string svg;
   double x = left, y = top;
   for (const LegendEntry& entry : entries) {
-    const double taken = sample + 6.0 + text_width(entry.name);
+    const std::string name = fitted(entry.name, room);
+    const double taken = sample + 6.0 + text_width(name);
     if (x > left && x + taken > left + width) x = left, y += row;
     if (entry.bar_class.empty()) {
       svg += svg_line(x, y, x + sample, y, "line s" + std::to_string(entry.style.colour % colour_count) + " d" + std::to_string(entry.style.dash % 4));
@@ -75,7 +95,7 @@ std::string svg_legend(const std::vector<LegendEntry>& entries, double left, dou
     } else {
       svg += "<rect" + attributes({{"x", x + 8.0}, {"y", y - 6.0}, {"width", 12.0}, {"height", 12.0}}) + " class=\"bar " + entry.bar_class + "\"/>\n";
     }
-    svg += svg_text(x + sample + 6.0, y + 4.0, "legend", entry.name);
+    svg += svg_text(x + sample + 6.0, y + 4.0, "legend", name);
     x += taken + gap;
   }
   if (!entries.empty()) height += y + row - top;

@@ -35,6 +35,9 @@ std::string svg_marker(const Style& style, double x, double y, const std::string
 /// Width [user units] that `text` takes at the page's 12 px, on the safe side.
 double text_width(const std::string& text);
 
+/// `text` if it takes no more than `width`, or as much of its beginning and its end as does; names of schemes differ at their ends as often as at their beginnings.
+std::string fitted(const std::string& text, double width);
+
 /// The first lines of a picture: its size, its title, and `alternative` for those who cannot see it.
 std::string svg_opening(double width, double height, const std::string& title, const std::string& alternative);
 

@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "loadgen/report/axis.h"
 #include "loadgen/report/bar_plot.h"
 #include "loadgen/report/box_plot.h"
 #include "loadgen/report/line_plot.h"
 #include "loadgen/report/plot_table.h"
+#include "loadgen/report/svg.h"
 #include "loadgen/report/text.h"
 
 namespace rink::loadgen {
@@ -27,6 +31,21 @@ std::vector<std::pair<double, double>> marks_of(const std::string& svg) {
     if (path.find("class=\"mark ") != std::string::npos) places.emplace_back(std::stod(path), std::stod(path.substr(path.find(' '))));
   }
   return places;
+}
+
+const std::string long_name = "region or strips with priority(budget=60), dead-reckoning";
+
+/// The texts of `svg` that reach beyond its `width`, by the width that a letter takes at most.
+std::vector<std::string> texts_beyond(const std::string& svg, double width) {
+  std::vector<std::string> result;
+  for (std::size_t at = svg.find("<text x=\""); at != std::string::npos; at = svg.find("<text x=\"", at + 1)) {
+    const std::size_t begin = svg.find('>', at) + 1;
+    const std::string classes = svg.substr(at, begin - at), text = svg.substr(begin, svg.find("</text>", at) - begin);
+    const double anchor = std::stod(svg.substr(at + 9)), taken = text_width(text);
+    const double left = anchor - taken * (classes.find(" end\"") != std::string::npos ? 1.0 : classes.find(" middle\"") != std::string::npos ? 0.5 : 0.0);
+    if (left < 0.0 || left + taken > width) result.push_back(text);
+  }
+  return result;
 }
 
 std::vector<double> places_of(const Ticks& ticks) {
@@ -53,6 +72,12 @@ TEST(Plot, TicksStandAtOneTwoAndFive) {
   EXPECT_THAT(places_of(ticks_of({1.0, 1e6, 0.0, 200.0, true}, 30.0)), ElementsAre(1, 10, 100, 1e3, 1e4, 1e5, 1e6));
   EXPECT_THAT(places_of(ticks_of({0.0, 10.0, 0.0, 100.0, false}, 25.0)), ElementsAre(0, 5, 10));
   EXPECT_THAT(places_of(ticks_of({0.0, 10.0, 0.0, 300.0, false}, 25.0)), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+}
+
+TEST(Plot, WordsThatDoNotFitLoseTheirMiddle) {
+  EXPECT_EQ(fitted("region", text_width("region")), "region");
+  EXPECT_EQ(fitted("region, on-event", text_width("12345678")), "reg\xE2\x80\xA6vent");
+  EXPECT_EQ(fitted("m\xC2\xB2m\xC2\xB2m\xC2\xB2", text_width("12345")), "m\xC2\xB2\xE2\x80\xA6m\xC2\xB2") << "letters stay whole";
 }
 
 LinePlot three_decades() {
@@ -106,6 +131,33 @@ TEST(Plot, LinesDifferInMoreThanColour) {
 }
 
 // Tukey's own rule on samples whose quartiles are plain to see.
+TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
+  LinePlot plot = three_decades();
+  std::vector<std::pair<double, double>> diagonal;
+  for (int i = 0; i <= 40; ++i) diagonal.emplace_back(10.0 * std::pow(100.0, i / 40.0), 5.0 * std::pow(100.0, i / 40.0));
+  plot.references = {{"8 + 2 n", diagonal}, {"9 + 2 n", diagonal}, {"8 n^2", diagonal}};
+  const std::string svg = to_svg(plot);
+  std::vector<std::pair<double, double>> places;
+  for (const ReferenceCurve& curve : plot.references) {
+    const std::size_t end = svg.find(">" + curve.name + "<");
+    ASSERT_NE(end, std::string::npos) << curve.name;
+    const std::string text = svg.substr(svg.rfind("<text x=\"", end) + 9, 40);
+    places.emplace_back(std::stod(text), std::stod(text.substr(text.find("y=\"") + 3)));
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_TRUE(std::abs(places[i].first - places[k].first) > 40.0 || std::abs(places[i].second - places[k].second) > 10.5) << plot.references[i].name << ", " << plot.references[k].name;
+}
+
+TEST(Plot, ATitleAndALegendThatAreTooLongStayWithinThePlot) {
+  LinePlot plot = three_decades();
+  plot.title = plot.lines[0].name = long_name + ", " + long_name;
+  plot.has_legend = true;
+  const std::string svg = to_svg(plot);
+  EXPECT_THAT(texts_beyond(svg, plot.width), ElementsAre());
+  EXPECT_THAT(svg, HasSubstr("aria-label=\"" + plot.title)) << "is whole for screen readers";
+}
+
 TEST(BoxPlot, HingesAreMediansOfTheHalvesAndFarValuesLieOutside) {
   const BoxFigures odd = box_of({9, 1, 5, 3, 7});
   EXPECT_EQ(odd.median, 5);
@@ -130,6 +182,23 @@ TEST(BoxPlot, FewReplicationsAreDotsWithoutABox) {
   EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"dot s0\""), Not(HasSubstr("class=\"box s0\""))));
   plot.groups[0].rows[0].values.push_back(5);
   EXPECT_THAT(to_svg(plot), HasSubstr("class=\"box s0\""));
+}
+
+TEST(BoxPlot, LongNamesStandInFullAboveTheirRows) {
+  BoxPlot plot{"t", "x", "", true, {{"10 clients", {{"none", {}, {1, 2}}, {long_name, {}, {3, 4}}}}}};
+  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr(">none<"), HasSubstr(">" + long_name + "<")));
+  EXPECT_THAT(texts_beyond(to_svg(plot), plot.width), ElementsAre());
+  plot.groups[0].rows[1].name += ", " + long_name;
+  EXPECT_THAT(texts_beyond(to_svg(plot), plot.width), ElementsAre());
+}
+
+TEST(BarPlot, NamesThatAreWiderThanTheirPlacesAreNumberedAndListedBelow) {
+  BarPlot plot{"t", "x", "y", "", {"states"}, {{"none", {1.0}, ""}, {"region", {2.0}, ""}}, {}, {}, ""};
+  EXPECT_THAT(to_svg(plot), AllOf(HasSubstr("class=\"tick middle\">none<"), HasSubstr("class=\"tick middle\">region<")));
+  plot.bars.push_back({long_name, {3.0}, ""});
+  const std::string svg = to_svg(plot);
+  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"tick middle\">3<"), HasSubstr(">1: none<"), HasSubstr(">2: region<"), Not(HasSubstr("class=\"tick middle\">none<"))));
+  EXPECT_THAT(texts_beyond(svg, plot.width), ElementsAre());
 }
 
 TEST(BarPlot, PartsStackToTheirSumAndTheBudgetIsDrawnOnlyWithinReach) {
