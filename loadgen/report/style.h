@@ -32,7 +32,7 @@ text{fill:var(--ink);font:12px system-ui,sans-serif}.title{font-weight:600;font-
 .mark-line{stroke:var(--warn);stroke-width:1.5;stroke-dasharray:6 4}
 .line{fill:none;stroke-width:2;stroke-linejoin:round}.whisker{fill:none;stroke-width:1.3;opacity:.75}.mark,.dot{stroke:var(--card);stroke-width:1}
 .box{fill-opacity:.18;stroke-width:1.2}.median{stroke-width:2.4}.dot{stroke-width:.6;fill-opacity:.85}
-.d0{stroke-dasharray:none}.d1{stroke-dasharray:7 4}.d2{stroke-dasharray:2 3}.d3{stroke-dasharray:9 3 2 3}
+.d0{stroke-dasharray:none}.d1{stroke-dasharray:7 4}.d2{stroke-dasharray:2 3}.d3{stroke-dasharray:6 2 1.5 2}
 .line.s0,.whisker.s0,.box.s0,.median.s0{stroke:var(--s0)}.line.s1,.whisker.s1,.box.s1,.median.s1{stroke:var(--s1)}
 .line.s2,.whisker.s2,.box.s2,.median.s2{stroke:var(--s2)}.line.s3,.whisker.s3,.box.s3,.median.s3{stroke:var(--s3)}
 .line.s4,.whisker.s4,.box.s4,.median.s4{stroke:var(--s4)}.line.s5,.whisker.s5,.box.s5,.median.s5{stroke:var(--s5)}

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "loadgen/report/box_plot.h"
 #include "loadgen/report/line_plot.h"
 #include "loadgen/report/plot_table.h"
+#include "loadgen/report/style.h"
 #include "loadgen/report/svg.h"
 #include "loadgen/report/text.h"
 
@@ -131,6 +134,25 @@ TEST(Plot, LinesDifferInMoreThanColour) {
 }
 
 // Tukey's own rule on samples whose quartiles are plain to see.
+/// How much [user units] of a legend's sample is seen as a gap: the mark in its middle hides ten.
+double gaps_seen(const std::string& dash) {
+  constexpr double sample = 26.0, step = 0.1;
+  const std::string style = picture_style, rule = "." + dash + "{stroke-dasharray:";
+  std::istringstream lengths(style.substr(style.find(rule) + rule.size()));
+  std::vector<double> pattern;
+  for (double length = 0.0; lengths >> length;) pattern.push_back(length);
+  double seen = 0.0, at = 0.0;
+  for (std::size_t i = 0; !pattern.empty() && at < sample; at += pattern[i++ % pattern.size()])
+    for (double x = at; i % 2 == 1 && x < std::min(sample, at + pattern[i % pattern.size()]); x += step)
+      if (std::abs(x - sample / 2.0) > 5.0) seen += step;
+  return seen;
+}
+
+TEST(Plot, ALegendShowsWhichLinesAreDashed) {
+  EXPECT_EQ(gaps_seen("d0"), 0.0);
+  for (const char* dash : {"d1", "d2", "d3"}) EXPECT_GT(gaps_seen(dash), 4.0) << dash;
+}
+
 TEST(Plot, NamesOfCurvesThatBeginAtOnePlaceStandApart) {
   LinePlot plot = three_decades();
   std::vector<std::pair<double, double>> diagonal;
