@@ -80,7 +80,7 @@ void add_runs(Exhibit& exhibit, const Findings& findings) {
 void add_invalid_runs(Exhibit& exhibit, const Findings& findings) {
   std::string rows;
   for (const RunRecord& run : findings.runs) {
-    if (!run.valid) rows += "<tr><td class=\"text\">" + escaped(name_of(run.cell)) + "</td><td class=\"wrap\">" + escaped(run.why_invalid) + "</td></tr>\n";
+    if (!run.valid) rows += "<tr><td class=\"wrap\">" + escaped(name_of(run.cell)) + "</td><td class=\"wrap\">" + escaped(run.why_invalid) + "</td></tr>\n";
   }
   if (rows.empty()) return;
   exhibit.html += "<h2 class=\"warn\" id=\"invalid\">Runs that do not count</h2>\n<p>They are in the table above but in no mean and no plot.</p>\n<table><tbody>\n" + rows + "</tbody></table>\n";
