@@ -1,6 +1,7 @@
 // What all sections share: figures, absences, and the columns that name a cell.
 #include "loadgen/report/exhibit.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "loadgen/parameter.h"
@@ -41,7 +42,12 @@ std::vector<std::string> cell_values(const CellLine& line, const CellGroup& grou
   return {line.name, group.cell.mode, group.cell.scheme, group.cell.policy, std::to_string(group.cell.clients), std::to_string(group.runs.size())};
 }
 
-std::vector<CellLine> plotted_lines(const Findings& findings) { return plotted_lines(findings, findings.lines.empty() ? "" : findings.lines.front().groups.front().cell.part); }
+std::vector<CellLine> plotted_lines(const Findings& findings) {
+  if (findings.lines.empty()) return {};
+  const auto counts = [](const CellLine& line) { return std::ranges::any_of(line.groups, [](const CellGroup& group) { return !group.runs.empty(); }); };
+  const auto first = std::ranges::find_if(findings.lines, counts);
+  return plotted_lines(findings, (first == findings.lines.end() ? findings.lines.front() : *first).groups.front().cell.part);
+}
 
 std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part) {
   constexpr std::size_t lines_max = 12;

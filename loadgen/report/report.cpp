@@ -66,7 +66,7 @@ std::string parts_text(const Experiment& experiment, std::span<const RunRecord> 
     text += "Part " + part.part + ": " + transport_text(part) + ", " + rates_text(part) + " Hz, " + span_text(part) +
             view_text(part) + "; " + std::to_string(count) + " of " + std::to_string(cells_of(part).size()) + " cells run, " + std::to_string(valid) + " valid. ";
   }
-  return text + "Plots over clients are of the first part.";
+  return text + "Plots over clients are of the first part that has valid runs.";
 }
 
 std::string setting_text(const Experiment& experiment, std::span<const RunRecord> runs) {

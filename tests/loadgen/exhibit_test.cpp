@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "canned_reports.h"
+#include "loadgen/report/exhibit.h"
 #include "loadgen/report/gains.h"
 #include "loadgen/report/report.h"
 #include "loadgen/report/run_figures.h"
@@ -177,6 +178,20 @@ TEST(Exhibits, EachPlotHasItsDataAndTheSameRunsGiveTheSameBytes) {
   }
   for (const PlotTable& table : report.tables) EXPECT_THAT(table.rows, Each(testing::SizeIs(table.columns.size()))) << table.name;
   EXPECT_THAT(report.html, HasSubstr("Relevant to a player: square of 3 m around the bat"));
+}
+
+TEST(Exhibits, AreOfTheFirstPartThatHasValidRuns) {
+  Experiment experiment = small_experiment();
+  experiment.parts = {experiment, experiment};
+  experiment.parts[0].part = "sockets", experiment.parts[1].part = "prompt";
+  auto runs = two_by_two();
+  const auto prompt = runs;
+  for (RunRecord& run : runs) run.cell.part = "sockets";
+  for (RunRecord run : prompt) run.cell.part = "prompt", runs.push_back(run);
+  const auto part_drawn = [&] { return plotted_lines(findings_of(experiment, runs)).front().groups.front().cell.part; };
+  EXPECT_EQ(part_drawn(), "sockets");
+  for (std::size_t i = 0; i < prompt.size(); ++i) runs[i].valid = false;
+  EXPECT_EQ(part_drawn(), "prompt") << "the server of the other could not be started";
 }
 
 TEST(Exhibits, WhatWasNotMeasuredIsLeftOutWithASentence) {
