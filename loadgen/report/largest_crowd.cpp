@@ -82,11 +82,7 @@ Exhibit bytes_by_kind_exhibit(const Findings& findings) {
   if (panels.empty()) return exhibit;
   exhibit.html += "<h3>Bytes by what they are about</h3>\n<p class=\"faint\">Both directions, headers of Ethernet, IPv4 and TCP and acknowledgements included; the number above a bar is its sum. Each panel has a scale of its own." +
                   escaped(largest_crowd_words(findings)) + "</p>\n<div class=\"plots small\">\n";
-  for (BarPlot& panel : panels) {
-    for (BarPlot::Bar& bar : panel.bars)
-      if (panel.bars.size() > 4 && bar.name.size() > 9) bar.name = bar.name.substr(0, 8) + "\xE2\x80\xA6";  // the whole name is in the table
-    exhibit.add_panel(table.name, to_svg(panel), "");
-  }
+  for (const BarPlot& panel : panels) exhibit.add_panel(table.name, to_svg(panel), "");
   exhibit.html += "</div>\n" + to_details(table);
   exhibit.tables.push_back(std::move(table));
   return exhibit;

@@ -153,7 +153,7 @@ Exhibit sweep_exhibit(const Findings& findings) {
   Exhibit exhibit;
   const auto swept = swept_parameters(findings.experiment);
   if (swept.empty() || findings.lines.empty()) {
-    exhibit.add_absence("The experiment lists no parameter with several values (docs/experiments.md, Sweeps).");
+    exhibit.add_absence(findings.experiment.parts.empty() ? "The experiment lists no parameter with several values (docs/experiments.md, Sweeps)." : "What all parts share has no parameter with several values; rivals at equal error show those of curves.");
     return exhibit;
   }
   exhibit.html += "<p class=\"faint\">One parameter at a time along each curve, at " + std::to_string(client_counts(findings.lines).back()) +
