@@ -14,6 +14,7 @@
 #include "game/net/client.h"
 #include "game/net/evidence.h"
 #include "game/net/fom_file.h"
+#include "game/replication/trajectory_codec.h"
 #include "loadgen/bots_evidence.h"
 #include "loadgen/bots_witness.h"
 #include "tests/temporary_folder.h"

@@ -74,7 +74,8 @@ TEST(MetricsDocument, NamesTheMembersOfEachDistribution) {
     for (const auto& [name, value] : line[column].items()) names.push_back(name);
     return names;
   };
-  for (const char* latency : {"update_age_ms", "key_to_effect_ms", "late_entry_ms", "tick_us"}) EXPECT_THAT(members(latency), testing::ElementsAre("p50", "p90", "p95", "p99", "p999", "max")) << latency;
+  for (const char* latency : {"update_age_ms", "key_to_effect_ms", "late_entry_ms", "tick_us"})
+    EXPECT_THAT(members(latency), testing::ElementsAre("p50", "p90", "p95", "p99", "p999", "max")) << latency;
   const auto rows = rows_of_fields();
   const auto errors = std::ranges::find_if(rows, [](const auto& row) { return row.front().find("`displayed_error_mm`") != std::string::npos; });
   ASSERT_NE(errors, rows.end());
@@ -89,7 +90,9 @@ TEST(MetricsDocument, SaysFromHowManySamplesOnEachPercentileIsGiven) {
     std::uint64_t samples;
     const char* words;
     std::optional<double> Percentiles::*percentile;
-  } limits[] = {{20, "p50 from 20 samples on", &Percentiles::p50}, {100, "p90 from 100 ", &Percentiles::p90}, {200, "p95 from 200 ", &Percentiles::p95},
+  } limits[] = {{20, "p50 from 20 samples on", &Percentiles::p50},
+                {100, "p90 from 100 ", &Percentiles::p90},
+                {200, "p95 from 200 ", &Percentiles::p95},
                 {1'000, "p99 from 1 000 ", &Percentiles::p99}, {10'000, "p99.9 from 10 000", &Percentiles::p999}};
   for (const auto& limit : limits) {
     EXPECT_THAT(text, testing::HasSubstr(limit.words));

@@ -46,7 +46,8 @@ class StallLong : public testing::Test {
       return flags;
     };
     Process server(test::binary_folder() + "/bin/rink-serve",
-                   with({"--scene", "crowd", "--bat-count", "4", "--puck-count", "40", "--clients", "4", "--rate", "50", "--scheme", "none", "--policy", "periodic", "--port", "0", "--report", file("server.json")}), {});
+                   with({"--scene", "crowd", "--bat-count", "4", "--puck-count", "40", "--clients", "4", "--rate", "50", "--scheme", "none", "--policy", "periodic", "--port", "0",
+                         "--report", file("server.json")}), {});
     std::optional<std::string> place;
     for (int i = 0; i < 1000 && !place; ++i) server.attend(10ms), place = server.line_after("listening on ");
     ASSERT_TRUE(place) << server.last_words();
