@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "game/net/fom_file.h"
 #include "game/net/serving.h"
 #include "game/replication/trajectory_codec.h"
+#include "loadgen/bots_report.h"
 #include "loadgen/virtual_parts.h"
 #include "rti/transport/virtual_network.h"
 
@@ -176,6 +178,7 @@ TEST_F(StalledCrowd, AKeyIsLateFromTenMillisecondsOn) {
   run_until(0.805 + Probe::late_s + 1e-4);
   EXPECT_EQ(measured().late_sends, 1u);
   EXPECT_EQ(measured().keys_sent, 2u);
+  EXPECT_EQ(bots_report(*crowd_, "")["late_sends_fraction"], 0.5);
 }
 
 /// Late in fifty: one by chance in 39 of 100 runs whose keys are late with a probability of 1 %, four in 1.6 of 1,000.

@@ -6,8 +6,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "canned_reports.h"
 #include "loadgen/process.h"
@@ -62,6 +64,33 @@ TEST_F(CampaignTest, AHealthyCellIsValid) {
   EXPECT_TRUE(record.valid) << record.why_invalid;
   EXPECT_TRUE(record.server_cpu_s && record.bots_cpu_s);
   EXPECT_EQ(record.entities, 1100u);
+}
+
+/// Each program works for a while and says what its shell and what that ran used, in two lines of user and system time.
+TEST_F(CampaignTest, ProcessorTimesAreThoseOfTheProgramsFromStartToEnd) {
+  const auto working = [&](const char* name, int rounds, const std::string& body) {
+    return find_report + body + "i=0; while [ $i -lt " + std::to_string(rounds) + " ]; do i=$((i+1)); done\ntimes >\"" + (folder_ / name).string() + "\"\n";
+  };
+  server(working("server.times", 60'000, "echo listening on 127.0.0.1:4711\n") + "cat >\"$report\" <<'R'\n" + canned_server_report(cell_).dump() + "\nR\n");
+  bots(working("bots.times", 120'000, "") + "cat >\"$report\" <<'R'\n" + canned_bots_report(cell_).dump() + "\nR\n");
+  settings_.join_limit_s = 20.0;
+  const RunRecord record = run();
+  const auto told_s = [&](const char* name) {
+    std::istringstream words(test::text_of(folder_ / name));
+    double sum_s = 0.0;
+    for (std::string word; words >> word;) {
+      double seconds = 0.0;
+      int minutes = 0;
+      EXPECT_EQ(std::sscanf(word.c_str(), "%dm%lfs", &minutes, &seconds), 2) << word;
+      sum_s += 60.0 * minutes + seconds;
+    }
+    EXPECT_GT(sum_s, 0.02) << "or the test shows nothing";
+    return sum_s;
+  };
+  EXPECT_NEAR(record.server_cpu_s.value_or(0.0), told_s("server.times"), 0.03) << "but for its last words";
+  EXPECT_NEAR(record.bots_cpu_s.value_or(0.0), told_s("bots.times"), 0.03);
+  EXPECT_EQ(record.nodes.busiest_cpu_s, record.server_cpu_s) << "the node that carries all";
+  EXPECT_DOUBLE_EQ(record.nodes.mean_cpu_s.value_or(0.0), (*record.server_cpu_s + *record.bots_cpu_s) / (1 + 10)) << "of the server and ten clients";
 }
 
 TEST_F(CampaignTest, TheProgramsAreGivenTheCellAndTheServersAddress) {

@@ -1,16 +1,23 @@
 // Relevance by contact: against brute force, and against what the physics then does.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "game/model/random_stream.h"
 #include "game/players/random_plan.h"
 #include "loadgen/truth/encounters.h"
 #include "loadgen/truth/reach.h"
 #include "loadgen/truth/replay.h"
+#include "tests/places.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
 namespace {
@@ -234,6 +241,12 @@ class Aftermath {
   std::map<std::uint32_t, std::set<std::uint32_t>> relevant_;  ///< by bat
 };
 
+std::string with_commas(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
+  return digits;
+}
+
 TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMetItNext) {
   Aftermath::Counts counts;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
@@ -253,10 +266,44 @@ TEST(RelevanceByContact, HeldAtEveryLookWhateverThenMetTheBatFirstOrAPuckThatMet
   EXPECT_GT(counts.strikes, 2'000u);
   const double contacts_missed = static_cast<double>(counts.contacts - counts.relevant) / static_cast<double>(counts.contacts);
   const double strikes_missed = static_cast<double>(counts.strikes - counts.strikes_relevant) / static_cast<double>(counts.strikes);
+  const std::string document = test::text_of(test::source_folder() + "/docs/metrics.md");
+  EXPECT_EQ(counts.relevant, counts.contacts);
+  EXPECT_EQ(counts.strikes_relevant, counts.strikes);
+  EXPECT_THAT(document, testing::HasSubstr("all of " + with_commas(counts.contacts) + " contacts of bats within 0.5 s of a look were with somebody relevant at the look, and so were all of " +
+                                           with_commas(counts.strikes) + " who had met the puck before"));
   EXPECT_LE(contacts_missed, 1e-3) << "those set off by others included, of which there is no promise";
   EXPECT_LE(strikes_missed, 1e-3) << "likewise";
   const double share = static_cast<double>(counts.pairs) / static_cast<double>(counts.of_pairs);
   EXPECT_LT(share, 0.5) << "or all are relevant to all";
+}
+
+/// Means over the players, at 30 looks in the first 3 s of seed 1.
+TEST(RelevanceByContact, OfACrowdHasAsManyRelevantAsTheDocumentSays) {
+  game::ServerEvidence evidence;
+  evidence.choice.scene = "crowd";
+  evidence.rate_hz = 30.0;
+  evidence.end_s = evidence.until_s = 3.0;
+  const game::Scene scene = game::chosen_scene(evidence.choice);
+  const auto players = static_cast<std::uint32_t>(scene.bodies.bats.size());
+  ASSERT_EQ(players, 100u);
+  ASSERT_EQ(scene.bodies.pucks.size(), 1'000u);
+  evidence.keys = game::random_plan(1, players, evidence.end_s);
+  const auto relevant = [&](const RelevanceArea& area) {
+    Replay replay(evidence, area);
+    std::size_t pairs = 0;
+    for (int look = 1; look <= 30; ++look) {
+      replay.advance(0.1 * look);
+      replay.look_around();
+      std::vector<Relevant> found;
+      for (std::uint32_t player = 0; player < players; ++player) replay.find(*replay.bat_of(player), found), pairs += found.size();
+    }
+    return std::to_string(std::lround(static_cast<double>(pairs) / 30.0 / players));
+  };
+  const auto by_contact = [&](double contact_s) { return relevant({.shape = RelevanceArea::Shape::contact, .contact_s = contact_s}); };
+  const double half_side = 0.5 * std::sqrt(0.05 * scene.world.field.length * scene.world.field.width);
+  EXPECT_THAT(test::text_of(test::source_folder() + "/docs/metrics.md"),
+              testing::HasSubstr(by_contact(0.5) + " entities are relevant to a player within 0.5 s, " + by_contact(0.25) + " within 0.25 s, and " +
+                                 relevant({.shape = RelevanceArea::Shape::square, .reach = half_side}) + " by a rectangle of 5 % of the field"));
 }
 
 }  // namespace

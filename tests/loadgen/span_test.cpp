@@ -82,6 +82,21 @@ TEST_F(SpanTest, RatesOfASteadyStreamDoNotDependOnHowLongItIsWatched) {
   }
 }
 
+/// A tick is one write to each client, however many bodies there are; a segment carries 1,448 bytes of it.
+TEST_F(SpanTest, ATickIsAWriteToEachClientAndAsManySegmentsAsItsBytesFill) {
+  experiment_.duration_s = 1.0;
+  for (const auto& [population, least] : {std::pair{Population::per_client, 1.0}, {Population::fixed, 7.0}}) {
+    experiment_.population = population;
+    const RunRecord record = sound(run_virtual_cell(settings_, experiment_, cell(), no_keys()));
+    const nlohmann::json server = report("server"), bots = report("bots");
+    const double writes_per_s = 4 * 20.0, segments_per_write = std::ceil(server["bytes_sent"].get<double>() / server["writes_sent"].get<double>() / 1448.0);
+    EXPECT_EQ(record.writes_per_s, writes_per_s);
+    EXPECT_GE(segments_per_write, least);
+    EXPECT_NEAR(*record.segments_per_s, writes_per_s * segments_per_write + bots["segments_sent"].get<double>(), 1e-9);
+    EXPECT_LE(bots["segments_sent"], 4) << "a heartbeat a second";
+  }
+}
+
 /// At 20 Hz 0.26 s falls between ticks 5 and 6 and 0.26 + 1.01 s after tick 25, which is the last, ends the game and is not counted: 6 to 24, and 19 periods.
 TEST_F(SpanTest, WhereWarmUpAndDurationAreNoMultiplesOfATickTheSpanBeginsAndEndsOnTicks) {
   experiment_.warm_up_s = 0.26, experiment_.duration_s = 1.01;
