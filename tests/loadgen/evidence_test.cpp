@@ -52,6 +52,7 @@ TEST_F(EvidenceFile, OfAServerHasTicksInMicrosecondsKeysObjectsAndRunsOfWhatWasI
   const nlohmann::json header = nlohmann::json::parse(text[0]);
   EXPECT_EQ(header["rink-server-evidence"], 2);
   EXPECT_EQ(header["state_hash"], "00abcdef01234567");
+  for (const char* fact : {"scene", "bats", "bat_count", "puck_count", "seed", "scheme", "policy", "rate_hz", "from_s", "until_s"}) EXPECT_TRUE(header.contains(fact)) << fact;
   EXPECT_FALSE(header.contains("begins_from")) << "it began with the scene";
   EXPECT_EQ(nlohmann::json::parse(text[1])["ticks_us"], nlohmann::json::parse("[[0.5, 1.0, 225.0, 3500.0]]"));
   const int right = static_cast<int>(Key::right);

@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "loadgen/game_plan.h"
 #include "loadgen/peer_run.h"
@@ -58,6 +62,12 @@ TEST_F(PeerProcessesTest, PlayTheGameOfThoseUnderAVirtualClockAndSayWhatItCost) 
   EXPECT_GT(*record->truth.filter_recall, 0.8);
   EXPECT_GT(*record->nodes.busiest_cpu_s, 0.0);
   EXPECT_GE(*record->nodes.busiest_cpu_s, *record->nodes.mean_cpu_s);
+  std::uint64_t largest = 0;
+  for (int process = 0; process < 3; ++process) {
+    const auto report = nlohmann::json::parse(test::text_of(folder_ / (name_of(cell()) + ".peer" + std::to_string(process) + ".json")));
+    largest = std::max(largest, report["rss_bytes"].get<std::uint64_t>());
+  }
+  EXPECT_EQ(record->server_rss_bytes, largest);
   EXPECT_NEAR(*record->traffic.halo + *record->traffic.claims + *record->traffic.agreement + *record->traffic.interest + *record->traffic.updates + *record->traffic.keys,
               *record->up_bytes_per_client_per_s, 1e-3 * *record->up_bytes_per_client_per_s);
   // The same messages, but for a byte less in each frame, and for windows that one of them noted a moment later.

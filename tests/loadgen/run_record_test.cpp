@@ -104,6 +104,15 @@ TEST(RunRecord, KeysThatWentOutLateCostALatencyOfKeysAndTheRunOnlyWhereTheyAreTh
   EXPECT_THAT(record.why_invalid, HasSubstr("could not keep their schedule")) << "peers wait for each other's keys";
 }
 
+TEST(RunRecord, OnlyUnderAVirtualClockIsThereADelay) {
+  Experiment experiment = small_experiment();
+  experiment.delay_ms = 25.0;
+  for (const TransportKind transport : {TransportKind::tcp, TransportKind::udp, TransportKind::shared_memory, TransportKind::virtual_time}) {
+    experiment.transport = transport;
+    EXPECT_EQ(to_json(record_for(experiment, cell))["delay_ms"], transport == TransportKind::virtual_time ? 25.0 : 0.0);
+  }
+}
+
 TEST(RunRecord, ALineHasTheDocumentedKeysInOrder) {
   const auto line = to_json(judged(canned_server_report(cell), canned_bots_report(cell)));
   const std::vector<std::string> documented{

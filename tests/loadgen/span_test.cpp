@@ -120,6 +120,7 @@ TEST_F(SpanTest, OverSocketsAsManyTicksAreCountedAndSentAsInVirtualTime) {
   EXPECT_EQ(report("server")["messages_sent"].get<std::uint64_t>(), 8 * 4 * (scene.bodies.bats.size() + scene.bodies.pucks.size()));
   EXPECT_NEAR(*record.measured_s, 0.4, 0.02);
   EXPECT_EQ(record.update_age_samples, 8u * 4u);
+  for (const char* who : {"server", "bots"}) EXPECT_EQ(report(who)["evidence_bytes"], 0) << "none was asked for";
 }
 
 /// A hundred bats and a thousand pucks are ten kilobytes a tick, in seven datagrams or more to each client: one sample each.
@@ -212,6 +213,7 @@ TEST_F(SpanTest, CostsOfTicksAndProcessesAreThoseThatWereNoted) {
   EXPECT_LE(*record.health.bots_cpu_share * 0.3 * processors, *record.bots_cpu_s + 0.02) << "a part of what the process used from start to end, but for the kernel's 10 ms";
   EXPECT_NEAR(*record.nodes.mean_cpu_s, (*record.server_cpu_s + *record.bots_cpu_s) / (1 + 4), 1e-12) << "the nodes are the server and four bots";
   EXPECT_EQ(record.nodes.busiest_cpu_s, record.server_cpu_s);
+  for (const char* who : {"server", "bots"}) EXPECT_GT(report(who)["evidence_bytes"], 1'000) << "in memory until the run is over";
   EXPECT_GT(*record.health.histogram_ns_per_record, 0.1);
   EXPECT_LT(*record.health.histogram_ns_per_record, 1e5);
   rusage children{};

@@ -311,8 +311,8 @@ TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
             std::ranges::count_if(bots.beliefs, [](const auto& belief) { return belief.bytes > 0 && belief.bytes < 9; }));
   for (const BotsEvidence::Sample& sample : bots.samples) {
     const auto beliefs = std::span(bots.beliefs).subspan(sample.first, sample.last - sample.first);
-    EXPECT_EQ(sample.window_s, 0.05);
-    EXPECT_GT(std::ranges::count_if(beliefs, [](const auto& belief) { return belief.bytes > 0; }), static_cast<std::ptrdiff_t>(beliefs.size()) * 9 / 10) << "all that move, at " << sample.displayed_s;
+    ASSERT_EQ(sample.window_s, 0.05);
+    ASSERT_GT(std::ranges::count_if(beliefs, [](const auto& belief) { return belief.bytes > 0; }), static_cast<std::ptrdiff_t>(beliefs.size()) * 9 / 10) << "all that move, at " << sample.displayed_s;
   }
   EXPECT_GT(*record.truth.wasted_bytes_fraction, 0.5) << "each sees a twentieth of the field";
 }
