@@ -14,6 +14,7 @@
 #include "game/players/player.h"
 #include "game/model/report_schema.h"
 #include "game/version/version.h"
+#include "loadgen/run_journal.h"
 
 namespace rink::loadgen {
 namespace {
@@ -56,6 +57,24 @@ bool has_installed_scene(const std::string& name, const std::string& text) {
   } catch (const game::SceneError&) {
     return false;
   }
+}
+
+/// Whether a name of a manifest is one below its folder.
+bool is_inside(const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.is_relative() && !file.empty() && file.find('\0') == std::string::npos && std::ranges::none_of(path, [](const std::filesystem::path& step) { return step == ".."; });
+}
+
+/// Those of the runs, which `--seeds` and `--until-width` may have chosen otherwise than the file says; its own where no run is left.
+void set_seeds(Experiment& experiment, std::span<const RunRecord> runs) {
+  const auto those_of = [runs](const std::string& part, std::vector<std::uint64_t>& seeds) {
+    std::vector<std::uint64_t> found;
+    for (const RunRecord& run : runs)
+      if (run.cell.part == part && !(std::ranges::find(found, run.cell.seed) != found.end())) found.push_back(run.cell.seed);
+    if (!found.empty()) seeds = found;
+  };
+  those_of({}, experiment.seeds);
+  for (Experiment& part : experiment.parts) those_of(part.name, part.seeds);
 }
 
 void set_scene(Experiment& experiment, const std::string& scene) {
@@ -103,7 +122,9 @@ void check_manifest(const std::filesystem::path& folder) {
   for (const auto& [file, sealed] : manifest["files"].items()) {
     if (!sealed.is_object() || !sealed.contains("bytes") || !sealed["bytes"].is_number_unsigned() || !sealed.contains("fnv1a") || !sealed["fnv1a"].is_string())
       throw ReportFolderError(name + ": " + file + " has neither length nor hash");
-    if (!std::filesystem::is_regular_file(folder / file)) throw ReportFolderError((folder / file).string() + ": missing, but named in the manifest");
+    if (!is_inside(file)) throw ReportFolderError(name + ": " + nlohmann::json(file).dump() + " is no file below the folder");
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(folder / file, failure)) throw ReportFolderError((folder / file).string() + ": missing, but named in the manifest");
     if (seal_of(folder / file) != Seal{sealed["bytes"].get<std::uint64_t>(), sealed["fnv1a"].get<std::string>()})
       throw ReportFolderError((folder / file).string() + ": altered since the report was written");
   }
@@ -114,14 +135,28 @@ void check_manifest(const std::filesystem::path& folder) {
 Experiment experiment_of_report(const std::filesystem::path& folder) {
   Experiment experiment = parse_experiment(text_in(folder / "experiment.toml"), folder / "experiment.toml", {});
   if (!has_installed_scene(experiment.scene, text_in(folder / "scene.toml"))) set_scene(experiment, (folder / "scene.toml").string());
+  set_seeds(experiment, runs_of_report(folder));
   return experiment;
+}
+
+std::vector<RunRecord> runs_of_report(const std::filesystem::path& folder) {
+  try {
+    return read_journal(folder / "runs.jsonl").runs;
+  } catch (const OutputError& error) {
+    throw ReportFolderError(error.what());
+  }
 }
 
 Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunRecord> again) {
   Repetition result;
+  const auto is_repeated = [again](const RunRecord& run) { return std::ranges::any_of(again, [&run](const RunRecord& other) { return other.cell == run.cell; }); };
+  result.left_out = before.size() - static_cast<std::size_t>(std::ranges::count_if(before, is_repeated));
   for (const RunRecord& run : again) {
     const auto twin = std::ranges::find_if(before, [&run](const RunRecord& other) { return other.cell == run.cell; });
-    if (twin == before.end() || !twin->valid || !run.valid) continue;
+    if (twin == before.end()) continue;
+    if (run.transport == "virtual" && twin->valid != run.valid) result.differing.push_back(name_of(run.cell) + (run.valid ? ": counts, and did not before" : ": does not count, and did before"));
+    if (!twin->valid || !run.valid) continue;
+    ++result.compared;
     if (run.transport == "virtual") {
       RunRecord other = *twin;
       other.scene = run.scene;
@@ -151,6 +186,7 @@ std::string words_for(const Repetition& repetition, const std::filesystem::path&
     text += " " + count(repetition.games_same, repetition.games) + " runs by the clock end in the same state, their payloads at most " + apart + " apart;";
   }
   if (repetition.virtual_runs + repetition.games == 0) text += " no run of both can be compared;";
+  if (repetition.left_out > 0) text += " " + std::to_string(repetition.left_out) + " of its runs were not repeated;";
   text.back() = '\n';
   for (const std::string& difference : repetition.differing) text += "  " + difference + "\n";
   return text;

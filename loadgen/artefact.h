@@ -29,19 +29,23 @@ void write_manifest(const ResultsDirectory& results);
 /// Throws ReportFolderError if the folder has no manifest, is of another schema, or lacks a file of the manifest or has it altered.
 void check_manifest(const std::filesystem::path& folder);
 
-/// The experiment of a report folder, with the scene as it was then. Throws ReportFolderError, ExperimentError.
+/// The experiment of a report folder, with the scene as it was then and the seeds of its runs. Throws ReportFolderError, ExperimentError.
 Experiment experiment_of_report(const std::filesystem::path& folder);
+
+/// Throws ReportFolderError, which names the line, if they cannot be read.
+std::vector<RunRecord> runs_of_report(const std::filesystem::path& folder);
 
 /// How runs said again what they had said.
 struct Repetition {
   std::size_t virtual_runs = 0, virtual_same = 0;  ///< in virtual time, which must say the same in every figure
   std::size_t games = 0, games_same = 0;           ///< runs by the clock with replayed keys, which must end in the same state
   double payload_apart = 0.0;                      ///< of runs by the clock: the greatest |again / before - 1| of payload
+  std::size_t compared = 0, left_out = 0;          ///< runs that count on both sides; runs that only the earlier side has
   std::vector<std::string> differing;              ///< which run, and in what
-  bool is_same() const { return differing.empty(); }
+  bool is_same() const { return differing.empty() && compared > 0; }
 };
 
-/// Runs of the same cells; what only one side has is left out.
+/// Runs of the same cells; what only one side has is compared with nothing.
 Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunRecord> again);
 std::string words_for(const Repetition& repetition, const std::filesystem::path& folder);
 

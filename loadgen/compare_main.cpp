@@ -287,7 +287,7 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   for (const WideRow& row : wide) std::cerr << "rink-compare: --until-width: after " << row.runs << " replications " << row.words << "\n";
   ExitStatus status = status_of(outcome, do_assertions_hold);
   if (!options.from.empty() && !outcome.was_interrupted) {
-    const Repetition repetition = repetition_of(read_journal(std::filesystem::path(options.from) / "runs.jsonl").runs, outcome.runs);
+    const Repetition repetition = repetition_of(rink::loadgen::runs_of_report(options.from), outcome.runs);
     (repetition.is_same() ? std::cout : std::cerr) << words_for(repetition, options.from) << std::flush;
     if (status == success && !repetition.is_same()) status = not_repeated;
   }

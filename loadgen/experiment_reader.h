@@ -158,7 +158,8 @@ class ExperimentReader {
       const auto text = value.value_exact<std::string>();
       const auto is_on = value.value_exact<bool>();
       if (!text && !is_on && !value.is_number()) refuse(key, *node, "a text, a number, true or false for each of its keys");
-      texts.emplace_back(name.str(), text ? *text : is_on ? (*is_on ? "1" : "0") : shortest(*value.value<double>()));
+      const auto whole = value.value_exact<std::int64_t>();  // the largest are no doubles
+      texts.emplace_back(name.str(), text ? *text : is_on ? (*is_on ? "1" : "0") : whole ? std::to_string(*whole) : shortest(*value.value_exact<double>()));
     }
     return texts;
   }

@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ReportFolder : public test::CommandTest {
  protected:
@@ -55,6 +56,48 @@ TEST_F(ReportFolder, OfRunsThatStartWarmHoldsTheirSavedGamesAndIsRepeatedFromThe
   write(saved[1], content(saved[1]) + " ");
   EXPECT_EQ(repeat(), 10);
   EXPECT_THAT(said_, HasSubstr(file(saved[1]) + ": altered since the report was written"));
+}
+
+TEST_F(ReportFolder, IsRepeatedWithTheReplicationsThatItHoldsWhateverItsExperimentLists) {
+  ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --seeds 3"), 0) << said_;
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(printed_, AllOf(HasSubstr("6 of 6 runs in virtual time say the same in every figure"), Not(HasSubstr("not repeated")))) << "the file says one seed";
+  EXPECT_EQ(repeat(" --seeds 2"), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time say the same in every figure; 2 of its runs were not repeated"));
+}
+
+TEST_F(ReportFolder, OfWhichNoRunCanBeComparedIsNotCalledRepeated) {
+  ASSERT_EQ(make(), 0) << said_;
+  const std::string runs = content("first/runs.jsonl");
+  const auto seal = [this] { write_manifest(ResultsDirectory::resumed(folder_ / "first", content("first/runs.jsonl").size())); };
+  write("first/runs.jsonl", runs.substr(0, runs.find('\n') + 1));
+  seal();
+  EXPECT_EQ(repeat(), 11);
+  EXPECT_THAT(said_, HasSubstr("no run of both can be compared"));
+  write("first/runs.jsonl", runs);
+  replace("first/runs.jsonl", "\"valid\":true", "\"valid\":false");
+  seal();
+  EXPECT_EQ(repeat(), 11);
+  EXPECT_THAT(said_, HasSubstr("-3-seed1: counts, and did not before"));
+  write("first/runs.jsonl", runs + "{}\n");
+  seal();
+  EXPECT_EQ(repeat(), 10) << "before anything runs";
+  EXPECT_THAT(said_, AllOf(HasSubstr(file("first/runs.jsonl") + ":4: "), Not(HasSubstr("[1/"))));
+}
+
+TEST_F(ReportFolder, IsRefusedIfItsManifestNamesWhatNoFileBelowItCanBe) {
+  ASSERT_EQ(make(), 0) << said_;
+  const std::string manifest = content("first/manifest.json");
+  for (const std::string& name : {std::string("../small.toml"), std::string("keys/../../small.toml"), file("small.toml"), std::string(), std::string("scene.toml\\u0000")}) {
+    write("first/manifest.json", manifest);
+    replace("first/manifest.json", "\"scene.toml\"", "\"" + name + "\"");
+    EXPECT_EQ(repeat(), 10) << name;
+    EXPECT_THAT(said_, HasSubstr(file("first/manifest.json") + ": \"" + name + "\" is no file below the folder"));
+  }
+  write("first/manifest.json", manifest);
+  replace("first/manifest.json", "\"scene.toml\"", "\"" + std::string(5000, 'a') + "\"");
+  EXPECT_EQ(repeat(), 10) << "longer than a file's name can be";
+  EXPECT_THAT(said_, HasSubstr("a: missing, but named in the manifest"));
 }
 
 TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun) {
@@ -134,6 +177,12 @@ TEST_F(ReportFolder, WithARelevanceExpressionThatIsNoneEndsWithItsOwnStatus) {
   write("small.toml", "relevance = 'filter'\nrelevant = 'aura or team'\n" + before);
   EXPECT_EQ(make(), 0) << said_;
   EXPECT_EQ(repeat(), 0) << said_;
+}
+
+TEST_F(ReportFolder, WithABaselineOfAWholeNumberThatIsNoDoubleIsRefusedByThatNumber) {
+  replace("small.toml", "scheme = 'none' }", "clients = 9223372036854775807 }");
+  EXPECT_EQ(make(), 8);
+  EXPECT_THAT(said_, HasSubstr("baseline.clients = 9223372036854775807: no value of that key"));
 }
 
 TEST_F(ReportFolder, WithABaselineThatNoCellHasEndsWithItsOwnStatus) {
