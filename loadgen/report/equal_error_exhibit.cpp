@@ -52,7 +52,7 @@ std::vector<PlotPoint> frontier_of(const std::vector<const RunRecord*>& runs, co
     const MeanInterval x = mean_interval(errors), y = mean_interval(sent);
     std::string label = shortest(setting.first) + " Hz";
     if (policy.starts_with("dead-reckoning")) label += ", " + shortest(1e3 * setting.second) + " mm";
-    points.push_back({x.mean, y.mean, y.interval, x.interval, policy + ", " + label + ": " + plain_number(x.mean) + " mm, " + short_number(y.mean) + "B/s", {}});
+    points.push_back({x.mean, y.mean, y.interval, x.interval, policy + ", " + label + ": " + plain_number(x.mean) + " mm, " + short_bytes_per_s(y.mean), {}});
   }
   std::ranges::sort(points, {}, &PlotPoint::x);
   std::vector<PlotPoint> best;

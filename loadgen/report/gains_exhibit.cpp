@@ -22,7 +22,7 @@ void add_scatter(Exhibit& exhibit, const Findings& findings) {
       const auto bytes = group.mean(payload), error = group.mean(displayed_rms);
       if (!bytes || !error) continue;
       drawn.points.push_back({error->mean, bytes->mean, bytes->interval, error->interval,
-                              line.name + ", " + std::to_string(group.cell.clients) + " clients: " + plain_number(error->mean) + " mm, " + short_number(bytes->mean) + "B/s"});
+                              line.name + ", " + std::to_string(group.cell.clients) + " clients: " + plain_number(error->mean) + " mm, " + short_bytes_per_s(bytes->mean)});
       auto row = cell_values(line, group);
       append_interval(row, error);
       append_interval(row, bytes);

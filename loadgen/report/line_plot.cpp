@@ -34,20 +34,24 @@ Axis fitted_axis(const LinePlot& plot, bool is_x) {
   return axis_around(low, high, is_logarithmic, is_x ? 4.0 : 10.0);
 }
 
+/// Bars end in a cap where the interval does; where the axis ends first, they run into its end without one.
 std::string error_bars(const PlotPoint& point, const std::string& colour, const Axis& x, const Axis& y) {
   constexpr double cap = 3.0;
   const std::string classes = "whisker " + colour;
   const double px = x.clamped_at(point.x), py = y.clamped_at(point.y);
+  const auto is_on = [](const Axis& axis, double value) { return value >= axis.low && value <= axis.high; };
   std::string path;
   if (point.y_interval && point.y_interval->second > point.y_interval->first) {
     const double low = y.clamped_at(point.y_interval->first), high = y.clamped_at(point.y_interval->second);
     path += "M" + coordinate(px) + " " + coordinate(low) + "V" + coordinate(high);
-    for (const double end : {low, high}) path += "M" + coordinate(px - cap) + " " + coordinate(end) + "H" + coordinate(px + cap);
+    for (const double end : {point.y_interval->first, point.y_interval->second})
+      if (is_on(y, end)) path += "M" + coordinate(px - cap) + " " + coordinate(y.at(end)) + "H" + coordinate(px + cap);
   }
   if (point.x_interval && point.x_interval->second > point.x_interval->first) {
     const double low = x.clamped_at(point.x_interval->first), high = x.clamped_at(point.x_interval->second);
     path += "M" + coordinate(low) + " " + coordinate(py) + "H" + coordinate(high);
-    for (const double end : {low, high}) path += "M" + coordinate(end) + " " + coordinate(py - cap) + "V" + coordinate(py + cap);
+    for (const double end : {point.x_interval->first, point.x_interval->second})
+      if (is_on(x, end)) path += "M" + coordinate(x.at(end)) + " " + coordinate(py - cap) + "V" + coordinate(py + cap);
   }
   return path.empty() ? "" : svg_path(path, classes);
 }

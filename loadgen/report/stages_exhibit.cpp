@@ -79,7 +79,7 @@ LinePlot plot_of(const std::vector<Curve>& curves, const std::string& title, con
       const CellGroup& group = curve.line.groups[i];
       const auto x = group.mean(figure), bytes = group.mean(payload);
       if (!x || !bytes) continue;
-      drawn.points.push_back({x->mean, bytes->mean, bytes->interval, x->interval, group.cell.scheme + ": " + plain_number(x->mean, 4) + ", " + short_number(bytes->mean) + "B/s", curve.labels[i]});
+      drawn.points.push_back({x->mean, bytes->mean, bytes->interval, x->interval, group.cell.scheme + ": " + plain_number(x->mean, 4) + ", " + short_bytes_per_s(bytes->mean), curve.labels[i]});
     }
     for (const PlotPoint& point : drawn.points) least = std::min(least, point.x);
     if (!drawn.points.empty()) plot.lines.push_back(std::move(drawn));

@@ -38,6 +38,11 @@ std::string short_number(double value, int digits) {
   return text;
 }
 
+std::string short_bytes_per_s(double value) {
+  const std::string number = short_number(value);
+  return number + (number.find(' ') == std::string::npos ? " B/s" : "B/s");
+}
+
 std::string plain_number(std::optional<double> value, int digits) {
   if (!value || !std::isfinite(*value)) return "\xE2\x80\x93";
   if (*value == 0.0) return "0";

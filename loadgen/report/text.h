@@ -11,6 +11,8 @@ std::string escaped(const std::string& text);
 
 /// `value` with three digits, or as many as said, and a k, M or G where it helps, e.g. `1.5 k`.
 std::string short_number(double value, int digits = 3);
+/// The same with its unit, e.g. `606 B/s`, `1.5 kB/s`.
+std::string short_bytes_per_s(double value);
 
 /// `value` with `digits` significant digits and never an exponent, e.g. 0.0123, 12.3, 1230; an n-dash if absent.
 std::string plain_number(std::optional<double> value, int digits = 3);

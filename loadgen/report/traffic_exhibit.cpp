@@ -48,7 +48,7 @@ std::string extremes(const std::vector<CellLine>& lines, FigureOf figure) {
   }
   if (found.size() < 2) return "";
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
-  return " At " + std::to_string(counts.back()) + " clients: least " + short_number(least->first) + "B/s (" + least->second + "), most " + short_number(most->first) + "B/s (" +
+  return " At " + std::to_string(counts.back()) + " clients: least " + short_bytes_per_s(least->first) + " (" + least->second + "), most " + short_bytes_per_s(most->first) + " (" +
          most->second + "), " + plain_number(most->first / least->first) + " times as much.";
 }
 
@@ -61,7 +61,7 @@ void add_plot(Exhibit& exhibit, const Traffic& traffic, FigureOf figure, const s
     for (const CellGroup& group : line.groups) {
       const auto mean = group.mean(figure);
       if (!mean) continue;
-      drawn.points.push_back({static_cast<double>(group.cell.clients), mean->mean, mean->interval, {}, line.name + ", " + std::to_string(group.cell.clients) + " clients: " + short_number(mean->mean) + "B/s"});
+      drawn.points.push_back({static_cast<double>(group.cell.clients), mean->mean, mean->interval, {}, line.name + ", " + std::to_string(group.cell.clients) + " clients: " + short_bytes_per_s(mean->mean)});
       auto row = cell_values(line, group);
       append_interval(row, mean);
       table.rows.push_back(std::move(row));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -63,6 +64,8 @@ TEST(Plot, NumbersAreShort) {
   EXPECT_EQ(short_number(999.0), "999");
   EXPECT_EQ(short_number(1000.0), "1 k");
   EXPECT_EQ(short_number(1'234'567.0), "1.23 M");
+  EXPECT_EQ(short_bytes_per_s(606.0), "606 B/s");
+  EXPECT_EQ(short_bytes_per_s(1500.0), "1.5 kB/s");
   EXPECT_EQ(plain_number(0.012345), "0.0123");
   EXPECT_EQ(plain_number(12345.6), "12346");
   EXPECT_EQ(plain_number(std::nullopt), "\xE2\x80\x93");
@@ -123,6 +126,20 @@ TEST(Plot, WhatALogarithmicAxisCannotShowIsLeftOut) {
   for (PlotPoint& point : plot.lines[0].points) point.y = std::nan("");
   EXPECT_FALSE(has_points(plot));
   EXPECT_THAT(to_svg(plot), Not(HasSubstr("nan")));
+}
+
+TEST(Plot, AnIntervalThatGoesOnBeyondTheAxisHasNoCapThere) {
+  const auto strokes_of = [](std::pair<double, double> interval) {
+    LinePlot plot = three_decades();
+    plot.lines[0].points[1].y_interval = interval;
+    const std::string svg = to_svg(plot);
+    const std::size_t end = svg.find("class=\"whisker");
+    const std::size_t begin = svg.rfind("<path d=\"", end);
+    return std::count(svg.begin() + static_cast<std::ptrdiff_t>(begin), svg.begin() + static_cast<std::ptrdiff_t>(end), 'M');
+  };
+  EXPECT_EQ(strokes_of({20.0, 80.0}), 3) << "the bar and a cap at each end";
+  EXPECT_EQ(strokes_of({0.001, 80.0}), 2) << "an axis that begins near 5 shows no end at 0.001";
+  EXPECT_EQ(strokes_of({0.001, 1e6}), 1);
 }
 
 TEST(Plot, LinesDifferInMoreThanColour) {
