@@ -213,4 +213,8 @@ def main(folder):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit("usage: recompute.py REPORT")
-    sys.exit(main(pathlib.Path(sys.argv[1])))
+    try:
+        sys.exit(main(pathlib.Path(sys.argv[1])))
+    except OSError as error:
+        print(f"recompute.py: {error.filename}: {error.strerror}", file=sys.stderr)
+        sys.exit(2)

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/command.h"
 
 namespace rink::loadgen {
@@ -62,6 +64,12 @@ TEST_F(RecomputeLongTest, EveryFigureThatNeedsNoPhysicsComesOutTheSameFromTheEvi
   for (const char* figure : {"wasted_bytes_fraction", "filter_recall", "displayed_error_mm_rms"})
     EXPECT_THAT(printed_, HasSubstr(std::string("skipped  ") + figure + ": needs the game played again (rink compare --trace)"));
   EXPECT_THAT(printed_, AllOf(Not(HasSubstr("DIFFERS")), Not(HasSubstr("no whole evidence"))));
+}
+
+TEST_F(RecomputeLongTest, AFolderWithoutATidyTableIsNamedAndNotCalledDifferent) {
+  std::filesystem::remove(file("out/tidy.csv"));
+  EXPECT_EQ(recompute(), 2) << "nothing could be checked";
+  EXPECT_THAT(printed_, AllOf(HasSubstr("recompute.py: " + file("out/tidy.csv") + ": No such file"), Not(HasSubstr("Traceback"))));
 }
 
 TEST_F(RecomputeLongTest, ANumberThatSomebodyChangedIsNamed) {
