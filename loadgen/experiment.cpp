@@ -104,6 +104,14 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
     if (!key || !key->set(any, value)) throw BaselineError(file + ": baseline." + name + " = " + value + ": " + (key ? "no value of that key" : "allowed are " + joined(names)));
   }
   const std::vector<Cell> cells = cells_of(experiment);
+  // A cell that lacks a parameter is the partner of all of its values, and so of one that is not there at all.
+  for (const auto& [name, value] : experiment.baseline_others) {
+    const auto has_it = [&name, &value](const Cell& cell) {
+      Cell with_it = cell;
+      return key_called(name)->set(with_it, value) && with_it == cell;
+    };
+    if (std::ranges::none_of(cells, has_it)) throw BaselineError(file + ": baseline: no cell of the experiment is " + name + " " + value);
+  }
   const Baseline baseline = experiment.baseline();
   if (std::ranges::none_of(cells, [&](const Cell& cell) { return baseline_of(cell, baseline) == cell; }))
     throw BaselineError(file + ": baseline: no cell of the experiment is " + baseline.words());

@@ -185,6 +185,12 @@ TEST_F(ReportFolder, WithABaselineOfAWholeNumberThatIsNoDoubleIsRefusedByThatNum
   EXPECT_THAT(said_, HasSubstr("baseline.clients = 9223372036854775807: no value of that key"));
 }
 
+TEST_F(ReportFolder, WithABaselineThatOnlyCellsWithoutThatParameterCouldHaveEndsWithThatStatusToo) {
+  replace("small.toml", "scheme = 'none' }", "view_margin = 0.2 }");
+  EXPECT_EQ(make(), 8);
+  EXPECT_THAT(said_, HasSubstr("baseline: no cell of the experiment is view_margin 0.2"));
+}
+
 TEST_F(ReportFolder, WithABaselineThatNoCellHasEndsWithItsOwnStatus) {
   replace("small.toml", "scheme = 'none'", "scheme = 'grid'");
   EXPECT_EQ(make(), 8);
