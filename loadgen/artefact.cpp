@@ -11,7 +11,6 @@
 
 #include "game/model/byte_hash.h"
 #include "game/model/scene_file.h"
-#include "game/players/player.h"
 #include "game/model/report_schema.h"
 #include "game/version/version.h"
 #include "loadgen/run_journal.h"
@@ -48,9 +47,6 @@ std::string text_in(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// Whether the log lies where the experiment, read from the folder, will look for it.
-bool is_below_experiment(const std::filesystem::path& log) { return log.is_relative() && !log.empty() && log.begin()->string() != ".."; }
-
 bool has_installed_scene(const std::string& name, const std::string& text) {
   try {
     return !name.ends_with(".toml") && game::scene_text(name) == text;
@@ -74,7 +70,7 @@ void set_seeds(Experiment& experiment, std::span<const RunRecord> runs) {
     if (!found.empty()) seeds = found;
   };
   those_of({}, experiment.seeds);
-  for (Experiment& part : experiment.parts) those_of(part.name, part.seeds);
+  for (Experiment& part : experiment.parts) those_of(part.part, part.seeds);
 }
 
 void set_scene(Experiment& experiment, const std::string& scene) {
@@ -89,11 +85,8 @@ void keep_inputs(const ResultsDirectory& results, const Experiment& experiment) 
   results.write("scene.toml", game::scene_text(experiment.scene));
   std::vector<const Experiment*> all{&experiment};
   for (const Experiment& part : experiment.parts) all.push_back(&part);
-  for (const Experiment* each : all) {
-    const std::filesystem::path log = std::filesystem::path(each->players).filename();
-    if (game::is_player_kind(each->players) || !is_below_experiment(log)) continue;
-    results.write(log.string(), text_in(each->players));
-  }
+  for (const Experiment* each : all)
+    if (!each->players_as_named.empty()) results.write(kept_log_name(each->players_as_named), text_in(each->players));
 }
 
 void write_manifest(const ResultsDirectory& results) {
@@ -159,7 +152,7 @@ Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunR
     ++result.compared;
     if (run.transport == "virtual") {
       RunRecord other = *twin;
-      other.scene = run.scene;
+      other.scene = run.scene, other.players = run.players;  // where they lie
       ++result.virtual_runs;
       if (to_json(other).dump() == to_json(run).dump()) ++result.virtual_same;
       else result.differing.push_back(name_of(run.cell) + ": other figures in virtual time");

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "game/model/byte_hash.h"
 #include "game/net/peer/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/players/player.h"
@@ -30,6 +31,11 @@ toml::table parsed(std::string_view text, const std::string& file) {
 std::string scene_beside(const std::string& scene, const std::filesystem::path& file) {
   if (!scene.ends_with(".toml") || std::filesystem::path(scene).is_absolute()) return scene;
   return (file.parent_path() / scene).lexically_normal().string();
+}
+
+std::filesystem::path recorded_log(const std::string& as_named, const std::filesystem::path& folder) {
+  const std::filesystem::path kept = folder / kept_log_name(as_named);
+  return std::filesystem::is_regular_file(kept) ? kept : folder / as_named;
 }
 
 void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary& vocabulary) {
@@ -64,8 +70,10 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   reader.choice<Population>("population", result.population, {{"fixed", Population::fixed}, {"per_client", Population::per_client}});
   reader.choice<KeySource>("keys", result.keys, {{"replay", KeySource::replay}, {"live", KeySource::live}});
   reader.text("players", result.players, "random, " + joined(game::player_kinds()) + ", or the path of a recorded key log, relative to the experiment's folder",
-              [&file](const std::string& name) { return game::is_player_kind(name) || std::filesystem::is_regular_file(file.parent_path() / name); });
-  if (!game::is_player_kind(result.players)) result.players = (file.parent_path() / result.players).lexically_normal().string();
+              [&file](const std::string& name) { return game::is_player_kind(name) || std::filesystem::is_regular_file(recorded_log(name, file.parent_path())); });
+  if (game::is_player_kind(result.players)) return;
+  result.players_as_named = result.players;
+  result.players = recorded_log(result.players, file.parent_path()).lexically_normal().string();
 }
 
 /// With several parts the baseline may be of any of them.
@@ -176,6 +184,8 @@ const char* to_string(TransportKind kind) {
   }
   return "unknown transport";
 }
+
+std::string kept_log_name(const std::string& as_named) { return "recorded-" + game::hexadecimal(game::hash_of(as_named)) + ".keys"; }
 
 std::vector<std::string> known_policies() { return game::update_policy_names(); }
 

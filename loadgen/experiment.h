@@ -105,6 +105,7 @@ struct Experiment {
   rti::NetworkConditions network;       ///< in virtual time; partitions count from the run's start. Without [network] `delay_ms` and nothing else
   bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players = "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
+  std::string players_as_named{};  ///< the path of the log as the file has it; empty for a kind of player
   Relevance relevance = Relevance::rectangle;
   double contact_s = 0.5;  ///< [s] of `contact`; above 0 to 10
   std::string relevant{};  ///< of `filter`: the expression, in which im::fault_in_momentary finds nothing
@@ -129,6 +130,10 @@ struct Experiment {
 
 /// That of the experiment's parts which `cell` is of; itself if it has none.
 const Experiment& part_of(const Experiment& experiment, const std::string& part);
+
+/// Name of the file of a report folder that holds the recorded key log which its experiment calls `as_named`. An experiment takes such a file
+/// of its own folder before the one that it names, so that a report is complete wherever it goes.
+std::string kept_log_name(const std::string& as_named);
 
 /// Reads `file`. Throws ExperimentError.
 Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& vocabulary);

@@ -100,6 +100,28 @@ TEST_F(ReportFolder, IsRefusedIfItsManifestNamesWhatNoFileBelowItCanBe) {
   EXPECT_THAT(said_, HasSubstr("a: missing, but named in the manifest"));
 }
 
+TEST_F(ReportFolder, HoldsRecordedKeysWhereverTheExperimentFoundThem) {
+  const std::string text = content("small.toml");
+  ASSERT_EQ(make(), 0) << said_;
+  std::filesystem::create_directory(folder_ / "sub");
+  for (const std::string& named : {std::string("sub/game.keys"), file("elsewhere.keys")}) {
+    const std::filesystem::path log = folder_ / named;  // an absolute path stays what it is
+    std::filesystem::copy_file(folder_ / "first/keys/seed1-3.keys", log);
+    write("small.toml", text + "players = '" + named + "'\n");
+    ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("recorded") + " --force"), 0) << said_;
+    std::filesystem::remove(log);
+    EXPECT_EQ(run("compare --from " + file("recorded") + " --out " + file("second") + " --force"), 0) << said_;
+    EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time say the same in every figure"));
+  }
+}
+
+TEST_F(ReportFolder, OfPartsIsRepeatedWithTheReplicationsOfEach) {
+  write("small.toml", content("small.toml") + "[[parts]]\nname = 'one'\n[[parts]]\nname = 'other'\ndelay_ms = 10\n");
+  ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --seeds 2"), 0) << said_;
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("8 of 8 runs in virtual time say the same in every figure"));
+}
+
 TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun) {
   ASSERT_EQ(make(), 0) << said_;
   replace("first/runs.jsonl", "\"update_age_samples\":", "\"update_age_samples\":1");
