@@ -95,6 +95,7 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
     if (!reader.has("baseline_policy")) result.baseline_policy.clear();
   }
   for (auto& [key, value] : reader.texts_of("baseline")) {
+    if ((key == "scheme" || key == "policy") && reader.has(("baseline_" + key).c_str())) reader.refuse_all("baseline_" + key + " and baseline." + key + " name a baseline twice");
     if (key == "scheme") result.baseline_scheme = value;
     else if (key == "policy") result.baseline_policy = value;
     else result.baseline_others.emplace_back(key, value);

@@ -19,7 +19,7 @@ std::string position(std::size_t number, std::size_t count) {
 }
 
 std::string words_for(const Cell& cell) {
-  return cell.scheme + ", " + cell.policy + ", " + std::to_string(cell.clients) + " clients, seed " + std::to_string(cell.seed);
+  return (cell.part.empty() ? "" : cell.part + ": ") + cell.scheme + ", " + cell.policy + ", " + std::to_string(cell.clients) + " clients, seed " + std::to_string(cell.seed);
 }
 
 }  // namespace

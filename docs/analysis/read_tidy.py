@@ -4,6 +4,7 @@ import argparse
 import math
 import pathlib
 import statistics
+import sys
 
 import matplotlib
 
@@ -72,8 +73,14 @@ def main():
     parser.add_argument("--out", default="bytes-against-error.svg", help="picture; its ending says which kind (svg, png, pdf)")
     parser.add_argument("--figure", action="append", help="print this figure (may be repeated); default: payload and displayed error")
     options = parser.parse_args()
-    tidy = pandas.read_csv(options.report / "tidy.csv", comment="#", keep_default_na=False)
+    try:
+        tidy = pandas.read_csv(options.report / "tidy.csv", comment="#", keep_default_na=False)
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}: expected the tidy table of a report folder")
     means = means_of(tidy[tidy["valid"].astype(str).str.lower() == "true"])
+    unknown = sorted(set(options.figure or []) - set(means["figure"]))
+    if unknown:
+        sys.exit(f"{options.report / 'tidy.csv'}: no figure that every valid run of a cell has is called {', '.join(unknown)}; data-dictionary.csv lists them")
     shown = means[means["figure"].isin(options.figure or [BYTES, ERROR])]
     constant = [key for key in CELL if means[key].nunique() == 1]
     print(shown.drop(columns=constant).to_string(index=False))

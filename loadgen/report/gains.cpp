@@ -81,7 +81,7 @@ std::string headline_of(const Findings& findings) {
                      line_name(findings.lines, base->cell);
   if (best->bytes->interval) text += " (95 % interval " + plain_number(best->bytes->interval->low) + " to " + plain_number(best->bytes->interval->high) + ")";
   const auto own_error = best->group->mean(displayed_rms), base_error = base->mean(displayed_rms);
-  if (own_error && base_error) text += ", with a displayed error of " + plain_number(own_error->mean) + " mm RMS against " + plain_number(base_error->mean) + " mm";
+  if (own_error && base_error) text += ", with a displayed error of " + plain_number(own_error->mean) + " mm RMS against " + plain_number(base_error->mean) + " mm, which is no comparison at equal error";
   return text + (best->bytes->difference() == Difference::insignificant ? "; no significant difference." : ".");
 }
 

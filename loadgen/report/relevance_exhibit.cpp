@@ -57,12 +57,13 @@ struct Quality {
   const char* name;
   FigureOf of;
   double scale;
+  int digits = 3;
 };
 
 constexpr Quality qualities[] = {
-    {"filter recall", filter_recall, 1.0},
+    {"filter recall", filter_recall, 1.0, 5},
     {"filter precision", filter_precision, 1.0},
-    {"delivered recall", delivered_recall, 1.0},
+    {"delivered recall", delivered_recall, 1.0, 5},
     {"delivered precision", delivered_precision, 1.0},
     {"missed interactions", [](const RunRecord& run) { return run.truth.missed_interactions ? std::optional(static_cast<double>(*run.truth.missed_interactions)) : std::nullopt; }, 1.0},
     {"late entry p99 ms", [](const RunRecord& run) { return run.truth.late_entry_ms.p99; }, 1.0},
@@ -88,7 +89,7 @@ void add_quality_table(Exhibit& exhibit, const Findings& findings) {
         const auto mean = group.mean(quality.of);
         has_any = has_any || mean.has_value();
         row.push_back(mean ? exact_number(mean->mean * quality.scale) : "");
-        cells += "<td>" + plain_number(mean ? std::optional(mean->mean * quality.scale) : std::nullopt) + "</td>";
+        cells += "<td>" + plain_number(mean ? std::optional(mean->mean * quality.scale) : std::nullopt, quality.digits) + "</td>";
       }
       if (!has_any) continue;
       table.rows.push_back(std::move(row));

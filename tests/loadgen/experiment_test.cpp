@@ -213,6 +213,7 @@ TEST(ExperimentFile, RatiosReferToNoFilterOrElseToTheFirstScheme) {
   EXPECT_EQ(parse_experiment(minimal, "x.toml", {}).baseline_scheme, "none");
   EXPECT_EQ(parse_experiment(minimal + "schemes = ['grid', 'region']", "x.toml", {}).baseline_scheme, "grid");
   EXPECT_EQ(parse_experiment(minimal + "schemes = ['grid', 'region']\nbaseline_scheme = 'region'", "x.toml", {}).baseline_scheme, "region");
+  EXPECT_THAT(complaint_about(minimal + "schemes = ['grid', 'region']\nbaseline_scheme = 'region'\nbaseline = {scheme = 'grid'}"), HasSubstr("baseline_scheme and baseline.scheme name a baseline twice"));
 }
 
 TEST(ExperimentFile, TheInstalledExperimentsAreSoundAndTheDefaultIsShort) {
