@@ -7,6 +7,7 @@
 #include <future>
 #include <map>
 #include <optional>
+#include <semaphore>
 #include <thread>
 #include <utility>
 
@@ -79,10 +80,12 @@ class CellQueue {
       progress_.starts(cell);
       return take(run(settings_, part, cell, key_log));
     }
-    while (under_way_.size() >= worker_count_)
+    idle_workers_.acquire();  // whichever ends first, be it not the first in line: cells take from 0.05 to 1 s
+    while (is_first_done())
       if (!take_first()) return false;
     progress_.starts(cell);
     under_way_.push_back(std::async(std::launch::async, [this, run, &part, cell, key_log] {
+      const Worker worker{idle_workers_};
       RunnerSettings settings = settings_;
       settings.keeps_evidence = !part.is_of_curves;  // there are hundreds of points of curves
       return run(settings, part, cell, key_log);
@@ -99,6 +102,13 @@ class CellQueue {
 
  private:
   using Record = std::optional<RunRecord>;
+  using Workers = std::counting_semaphore<>;
+  struct Worker {
+    Workers& others;
+    ~Worker() { others.release(); }
+  };
+
+  bool is_first_done() const { return !under_way_.empty() && under_way_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
 
   bool take_first() {
     std::future<Record> first = std::move(under_way_.front());
@@ -124,7 +134,7 @@ class CellQueue {
   ResultsDirectory& results_;
   Progress& progress_;
   Outcome& outcome_;
-  const std::size_t worker_count_ = std::max(1u, std::thread::hardware_concurrency());
+  Workers idle_workers_{static_cast<std::ptrdiff_t>(std::max(1u, std::thread::hardware_concurrency()))};
   Clock::time_point last_ = Clock::now();
   std::deque<std::future<Record>> under_way_;
 };
