@@ -3,7 +3,6 @@
 
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 namespace rink::game {
 namespace {
@@ -17,7 +16,11 @@ std::string last_line(std::uint64_t lines, std::uint64_t hash) {
 EvidenceWriter::EvidenceWriter(std::string file) : file_(std::move(file)), stream_(file_) {}
 
 void EvidenceWriter::line(const nlohmann::ordered_json& value) {
-  const std::string text = value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  line_of_text(value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void EvidenceWriter::line_of_text(std::string text) {
+  text += '\n';
   hash_.add(text);
   ++lines_;
   stream_ << text;
@@ -41,12 +44,16 @@ EvidenceReader::EvidenceReader(std::string file) : file_(std::move(file)) {
   text_.resize(end);
 }
 
-nlohmann::json EvidenceReader::next() {
+std::string_view EvidenceReader::next_text() {
   if (is_at_end()) refuse("another line");
-  const std::size_t end = text_.find('\n', position_);
+  const std::size_t begin = position_, end = text_.find('\n', begin);
   ++read_;
-  nlohmann::json value = nlohmann::json::parse(text_.begin() + static_cast<std::ptrdiff_t>(position_), text_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
   position_ = end + 1;
+  return std::string_view(text_).substr(begin, end - begin);
+}
+
+nlohmann::json EvidenceReader::next() {
+  nlohmann::json value = nlohmann::json::parse(next_text(), nullptr, false);
   if (value.is_discarded()) refuse("JSON");
   return value;
 }

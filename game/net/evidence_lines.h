@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "game/model/byte_hash.h"
 
@@ -22,6 +23,8 @@ class EvidenceWriter {
  public:
   explicit EvidenceWriter(std::string file);
   void line(const nlohmann::ordered_json& value);
+  /// A line that is JSON already, without its end.
+  void line_of_text(std::string text);
   /// Throws std::runtime_error naming the file if anything could not be written.
   void finish();
 
@@ -39,6 +42,8 @@ class EvidenceReader {
   explicit EvidenceReader(std::string file);
   /// The next line. Throws EvidenceError if there is none or it is not JSON.
   nlohmann::json next();
+  /// The same as text, without its end, whatever it holds; valid as long as the reader.
+  std::string_view next_text();
   bool is_at_end() const { return read_ == lines_; }
   [[noreturn]] void refuse(const std::string& expected) const;
   /// Refuses `what` of another version than the wanted one, and names both; 0 stands for a file that names none.

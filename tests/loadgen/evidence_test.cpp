@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "game/net/client.h"
 #include "game/net/evidence.h"
+#include "game/net/evidence_lines.h"
 #include "game/net/fom_file.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/bots_evidence.h"
@@ -76,6 +78,56 @@ TEST_F(EvidenceFile, OfBotsHasChangesInMicrosecondsAndPlacesInNanometresNoneTwic
   ASSERT_EQ(text.size(), 4u);
   EXPECT_EQ(text[1], R"({"bat":100,"changes_us":[[-1000000,100,1],[1250000,102,0]]})");
   EXPECT_EQ(text[2], R"({"bot":0,"displayed_s":0.75,"matched_s":0.625,"window_s":0.05,"entities_nm":[[7,8,1250000000,-2500000000,1500000000,-2500000000],[8,0,3000000000,4000000000],[9,16]]})");
+}
+
+TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
+  BotsEvidence bots;
+  bots.bots = {{100, {}}, {101, {}}};
+  bots.beliefs = {{.object = 4'294'967'295, .bytes = 8, .is_in_scope = true, .matched = {1.25, -2.5}, .displayed = {1e-9, -1e9}}, {.object = 9, .bytes = 16}, {.object = 8, .is_in_scope = true}};
+  bots.samples = {{.bot = 1, .displayed_s = 0.1, .matched_s = 2.0, .window_s = 0.05, .first = 0, .last = 2}, {.bot = 0, .displayed_s = 3.0, .matched_s = -1.0, .window_s = 0.0, .first = 2, .last = 2},
+                  {.bot = 0, .displayed_s = 4.0, .matched_s = 4.0, .window_s = 0.0, .first = 2, .last = 3}};
+  write_evidence(file(), bots);
+  const BotsEvidence read = read_bots_evidence(file());
+  ASSERT_EQ(read.samples.size(), bots.samples.size());
+  for (std::size_t i = 0; i < read.samples.size(); ++i) {
+    const BotsEvidence::Sample &found = read.samples[i], &said = bots.samples[i];
+    EXPECT_EQ(std::tie(found.bot, found.displayed_s, found.matched_s, found.window_s, found.first, found.last),
+              std::tie(said.bot, said.displayed_s, said.matched_s, said.window_s, said.first, said.last));
+  }
+  ASSERT_EQ(read.beliefs.size(), bots.beliefs.size());
+  for (std::size_t i = 0; i < read.beliefs.size(); ++i) {
+    const BotsEvidence::Belief &found = read.beliefs[i], &said = bots.beliefs[i];
+    EXPECT_EQ(std::tie(found.object, found.bytes, found.is_in_scope, found.matched, found.displayed), std::tie(said.object, said.bytes, said.is_in_scope, said.matched, said.displayed)) << i;
+  }
+}
+
+TEST_F(EvidenceFile, OfBotsWithASampleThatIsNoneIsRefusedWithItsLineAndWhatWasExpected) {
+  const std::string head = R"({"bot":0,"displayed_s":1,"matched_s":1,"window_s":0.1,"entities_nm":)";
+  const auto complaint = [&](const std::string& sample) {
+    game::EvidenceWriter writer(file());
+    writer.line({{"rink-bots-evidence", 1}, {"clients", 1}, {"from_s", 0.0}, {"until_s", 2.0}, {"is_complete", true}, {"bots", 1}, {"samples", 1}});
+    writer.line_of_text(R"({"bat":100,"changes_us":[]})");
+    writer.line_of_text(sample);
+    writer.finish();
+    try {
+      read_bots_evidence(file());
+    } catch (const game::EvidenceError& error) {
+      const std::string found = error.what();
+      return found.starts_with(file()) ? found.substr(file().size()) : found;
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_EQ(complaint(head + "[[7,8,1]]}"), ":3: expected an entity as object, bytes and no, one or two positions");
+  EXPECT_EQ(complaint(head + "[[7,8],[]]}"), ":3: expected an entity as object, bytes and no, one or two positions");
+  EXPECT_EQ(complaint(head + "[[7,8,1,2,3,4,5]]}"), ":3: expected an entity as object, bytes and no, one or two positions");
+  EXPECT_EQ(complaint(head + "[[7,8]"), ":3: expected JSON");
+  EXPECT_EQ(complaint(R"({"bot":1,"displayed_s":1,"matched_s":1,"window_s":0.1,"entities_nm":[]})"), ":3: expected a bot below 1");
+  EXPECT_EQ(complaint(R"({"bot":-1,"displayed_s":1,"matched_s":1,"window_s":0.1,"entities_nm":[]})"), ":3: expected a bot below 1");
+  EXPECT_EQ(complaint(R"({"bot":0,"displayed_s":1,"matched_s":1,"entities_nm":[]})"), ":3: expected a sample with window_s");
+  EXPECT_EQ(complaint(R"({"bot":0,"displayed_s":1,"matched_s":1,"window_s":0.1,"entities_nm":5})"), ":3: expected a sample with entities_nm");
+  for (const std::string& other : {head + "[7,8]}", head + "[[7,[8]]]}", head + "[[7,8.5]]}", head + "[[\"7\",8]]}", head + "null}", head + "[[-7,8]]}", head + "[[7,4294967296]]}",
+                                   std::string(R"({"bot":0,"displayed_s":[1]})"), std::string(R"({"bot":{}})"), std::string("[]"), std::string("[[7,8]]"), std::string("7"), std::string("null")})
+    EXPECT_EQ(complaint(other), ":3: expected a sample as docs/metrics.md describes it") << other;
 }
 
 /// FNV-1a of 64 bits: its offset, then for each byte an exclusive or and its prime.
