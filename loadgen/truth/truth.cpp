@@ -40,7 +40,8 @@ struct Look {
 
 class ReplayJudgement {
  public:
-  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area) : server_(server), bots_(bots), area_(area), replay_(server, area) {
+  ReplayJudgement(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Entries entries = Entries::found)
+      : server_(server), bots_(bots), area_(area), entries_(entries), replay_(server, area) {
     for (const BotsEvidence::Bot& bot : bots.bots) add_player(bot);
     plan_looks();
   }
@@ -86,7 +87,8 @@ class ReplayJudgement {
   void plan_looks() {
     const double look_s = std::min(look_s_max, 0.125 / server_.rate_hz);
     const double until_s = std::min(server_.until_s, server_.end_s);
-    for (std::size_t i = 0; server_.from_s + static_cast<double>(i) * look_s <= until_s; ++i) looks_.push_back({server_.from_s + static_cast<double>(i) * look_s, Look::Kind::step, i});
+    for (std::size_t i = 0; entries_ == Entries::found && server_.from_s + static_cast<double>(i) * look_s <= until_s; ++i)
+      looks_.push_back({server_.from_s + static_cast<double>(i) * look_s, Look::Kind::step, i});
     for (std::size_t i = 0; replay_.looks_back() && static_cast<double>(i) * look_s < server_.from_s; ++i) looks_.push_back({static_cast<double>(i) * look_s, Look::Kind::before, i});
     for (std::size_t i = 0; i < server_.decisions.size(); ++i) looks_.push_back({server_.decisions[i].instant_s, Look::Kind::decision, i});
     for (std::size_t i = 0; i < bots_.samples.size(); ++i) {
@@ -217,6 +219,7 @@ class ReplayJudgement {
   const game::ServerEvidence& server_;
   const BotsEvidence& bots_;
   RelevanceArea area_;
+  Entries entries_;
   Replay replay_;
   TruthTrace* trace_ = nullptr;
   std::vector<Player> players_;
@@ -283,8 +286,8 @@ TruthFigures ReplayJudgement::sums() {
 
 }  // namespace
 
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries) {
-  ReplayJudgement judgement(server, bots, area);
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries, Entries entries) {
+  ReplayJudgement judgement(server, bots, area, entries);
   const TruthFigures figures = judgement.figures();
   if (discoveries) *discoveries = judgement.discoveries();
   return figures;
@@ -314,9 +317,9 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 
 namespace {
 
-void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots, Discoveries* discoveries = nullptr) {
+void judge(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots, Discoveries* discoveries, Entries entries) {
   const RelevanceArea area = relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
-  TruthFigures figures = truth_of(server, bots, area, discoveries);
+  TruthFigures figures = truth_of(server, bots, area, discoveries, entries);
   figures.control_bytes_fraction = record.truth.control_bytes_fraction;
   figures.fairness_jain = record.truth.fairness_jain;
   record.truth = figures;
@@ -348,7 +351,7 @@ const char* const too_many_changes = "more scopes changed than there was room fo
 
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots) {
   record_trouble(record, [&] {
-    judge(record, experiment, server, bots);
+    judge(record, experiment, server, bots, nullptr, Entries::passed_over);
     if (!bots.is_complete) record.truth.trouble = too_many_changes;
   });
 }
@@ -363,7 +366,7 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
     add_tick_costs(record, server);
     const BotsEvidence bots = read_bots_evidence(bots_file);
     Discoveries found;
-    judge(record, experiment, server, bots, &found);
+    judge(record, experiment, server, bots, &found, Entries::found);
     if (bots.is_complete) discoveries = found;
     if (!bots.is_complete) record.truth.trouble = bots_file + ": " + too_many_changes;
   });

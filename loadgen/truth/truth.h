@@ -1,6 +1,7 @@
 // Computes a run's quality afterwards: plays the game again, exactly, and holds what server and bots said against it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -19,10 +20,13 @@ class DifferentGame : public game::EvidenceError {
   using game::EvidenceError::EvidenceError;
 };
 
+/// Whether it is found out when each entity became relevant, for `late_entry_ms` and late discoveries; that takes longer than all else.
+enum class Entries : std::uint8_t { found, passed_over };
+
 /// All figures but fairness and control bytes, which are counts of the reports. Definitions: docs/metrics.md. Throws game::EvidenceError if the game played again does
 /// not end in the server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the scene cannot be read. To who asks, `discoveries` too: none if the bots' evidence is
 /// incomplete.
-TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries = nullptr);
+TruthFigures truth_of(const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area, Discoveries* discoveries = nullptr, Entries entries = Entries::found);
 
 /// Writes where everything was whenever `truth_of` looks (loadgen/truth/trace.h), for programs that judge again. Throws what `truth_of` does, and std::runtime_error if `file` cannot be written.
 void write_trace(const std::string& file, const game::ServerEvidence& server, const BotsEvidence& bots, const RelevanceArea& area);
@@ -34,6 +38,6 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 /// `record.truth.trouble`; a game that ends elsewhere when it is played again makes the run invalid. What was discovered when goes to `discovery_file` (loadgen/discovery_table.h), if there is one;
 /// throws OutputError if that cannot be written, and nothing else.
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file, const std::filesystem::path& discovery_file = {});
-/// The same of evidence that is in memory, which is not rounded as files round it.
+/// The same of evidence that is in memory, which is not rounded as files round it; entries are passed over.
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots);
 }  // namespace rink::loadgen

@@ -98,6 +98,8 @@ TEST(CampaignInVirtualTime, SaysTheSameWhetherCellsRunBesideEachOtherOrAlone) {
     EXPECT_EQ(to_json(*alone).dump(), to_json(outcome.runs[i]).dump());
     const bool has_evidence = std::filesystem::exists(results.path() / "cells" / (name_of(cells[i]) + ".server.jsonl"));
     EXPECT_EQ(has_evidence, cells[i].part == "one") << "points of curves keep none";
+    EXPECT_EQ(alone->truth.late_entry_ms.max.has_value(), cells[i].part == "one") << "nor is it found out when entities became relevant to them";
+    EXPECT_TRUE(alone->truth.delivered_recall && alone->truth.displayed_error_mm.p50) << "all else is";
   }
 }
 
