@@ -2,20 +2,28 @@
 #include "rti/baselines/keyframe_memory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rink::rti {
 
 void KeyframeMemory::clear(Keyframe& keyframe) {
   keyframe.number.reset();
+  keyframe.next = 0;
+  if (keyframe.records.empty()) return;
   keyframe.records.clear();
   keyframe.counts.clear();
-  keyframe.next = 0;
+  spare_.push_back(std::exchange(keyframe, {}));
 }
 
 void KeyframeMemory::begin(std::uint16_t number) {
   if (open_) seal();
   keyframes_.resize(keyframe_window);
-  clear(place_of(number));
+  Keyframe& keyframe = place_of(number);
+  clear(keyframe);
+  if (!spare_.empty()) {
+    keyframe = std::move(spare_.back());
+    spare_.pop_back();
+  }
   open_ = number;
 }
 
@@ -57,8 +65,9 @@ void KeyframeMemory::drop_before(std::uint16_t number) {
 
 std::size_t KeyframeMemory::memory_bytes() const {
   std::size_t sum = keyframes_.capacity() * sizeof(Keyframe);
-  for (const Keyframe& each : keyframes_) sum += each.records.capacity() * sizeof(Record) + each.counts.capacity() * sizeof(std::int64_t);
-  return sum;
+  for (const std::vector<Keyframe>* all : {&keyframes_, &spare_})
+    for (const Keyframe& each : *all) sum += each.records.capacity() * sizeof(Record) + each.counts.capacity() * sizeof(std::int64_t);
+  return sum + spare_.capacity() * sizeof(Keyframe);
 }
 
 }  // namespace rink::rti

@@ -45,9 +45,11 @@ class KeyframeMemory {
     std::size_t next = 0;  ///< where the last look-up ended
   };
   Keyframe& place_of(std::uint16_t number) { return keyframes_[number % keyframe_window]; }
-  static void clear(Keyframe& keyframe);
+  void clear(Keyframe& keyframe);
 
   std::vector<Keyframe> keyframes_;  ///< none before the first is begun
+  /// Memory of cleared keyframes. The next one to begin takes it, so a federate touches as much as is referred to and not a window of 32 in turn.
+  std::vector<Keyframe> spare_;
   std::optional<std::uint16_t> open_;
 };
 
