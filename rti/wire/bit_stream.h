@@ -141,12 +141,19 @@ class BitReader {
     return true;
   }
   bool golomb(std::uint64_t& value, unsigned order) {
-    const std::uint64_t ahead = peek(static_cast<unsigned>(std::min<std::size_t>(64, left())));
+    const auto there = static_cast<unsigned>(std::min<std::size_t>(64, left()));
+    const std::uint64_t ahead = peek(there);
     if (ahead == 0) return false;
     const auto length = static_cast<unsigned>(std::countr_zero(ahead));
     std::uint64_t head = 0, tail = 0;
-    at_ += length + 1;
-    if (length > 56 || !bits(head, length) || !bits(tail, order)) return false;
+    if (const unsigned size = 2 * length + 1 + order; size <= there && order < 64) {  // nearly always: the whole code has been read
+      head = ahead >> length >> 1 & low_bits(length);
+      tail = ahead >> (size - order) & low_bits(order);
+      at_ += size;
+    } else {
+      at_ += length + 1;
+      if (length > 56 || !bits(head, length) || !bits(tail, order)) return false;
+    }
     head += (std::uint64_t{1} << length) - 1;
     if (head > golomb_max >> order) return false;
     value = head << order | tail;
@@ -164,12 +171,14 @@ class BitReader {
   }
 
  private:
+  static std::uint64_t low_bits(unsigned size) { return (std::uint64_t{1} << size) - 1; }
   /// `size` bits from here on, all of which are there.
   std::uint64_t peek(unsigned size) const {
     if (size == 0) return 0;
     const std::size_t from = at_ / 8, shift = at_ % 8, there = bytes_.size() - from;
     std::uint64_t word = 0;
-    std::memcpy(&word, bytes_.data() + from, std::min<std::size_t>(8, there));
+    if (there >= 8) std::memcpy(&word, bytes_.data() + from, 8);  // of a size that is known it is a single load
+    else std::memcpy(&word, bytes_.data() + from, there);
     word >>= shift;
     if (shift + size > 64) word |= static_cast<std::uint64_t>(bytes_[from + 8]) << (64 - shift);
     return size == 64 ? word : word & ((std::uint64_t{1} << size) - 1);

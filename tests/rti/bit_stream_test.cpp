@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "rti/wire/bit_stream.h"
@@ -184,6 +185,50 @@ TEST(BitStream, ReadsNothingFromFewerBits) {
     BuoyMessage read;
     ASSERT_FALSE(exchange(reader, read)) << size << " of " << bytes.size() << " bytes";
   }
+}
+
+/// The code bit by bit, as its definition says: zeros up to a one, as many bits of the head, then `order` bits; nothing if they end before.
+std::optional<std::uint64_t> golomb_bit_by_bit(Bytes bytes, std::size_t at, unsigned order) {
+  const auto left = [&] { return 8 * bytes.size() - at; };
+  const auto next = [&] { return static_cast<std::uint64_t>(bytes[at / 8]) >> at++ % 8 & 1u; };
+  unsigned length = 0;
+  for (;; ++length) {
+    if (left() == 0) return std::nullopt;
+    if (next() == 1) break;
+  }
+  if (left() < length + order) return std::nullopt;
+  std::uint64_t head = 0, tail = 0;
+  for (unsigned bit = 0; bit < length; ++bit) head |= next() << bit;
+  for (unsigned bit = 0; bit < order; ++bit) tail |= next() << bit;
+  return (head + (std::uint64_t{1} << length) - 1) << order | tail;
+}
+
+TEST(BitStream, ReadsGolombCodesFromEachBitToTheLastAsTheirDefinitionSays) {
+  std::mt19937_64 random(11);
+  for (unsigned order = 0; order <= golomb_order_max; ++order)
+    for (std::size_t at = 0; at < 16; ++at)
+      for (unsigned width = 0; width <= 56; ++width) {
+        const std::uint64_t value = width == 0 ? 0 : (random() | std::uint64_t{1} << 63) >> (64 - width);
+        std::vector<std::byte> bytes;
+        {
+          BitWriter writer(bytes);
+          writer.bits(random() & ((1u << at) - 1), static_cast<unsigned>(at));
+          writer.golomb(value, order);
+        }
+        bytes.resize(bytes.size() + 9);
+        for (std::size_t size = (at + 7) / 8; size <= bytes.size(); ++size) {  // cut off, whole, and with zeros behind
+          const Bytes seen = Bytes(bytes).first(size);
+          BitReader reader(seen, at);
+          std::uint64_t read = 0;
+          const bool is_read = reader.golomb(read, order);
+          const std::optional<std::uint64_t> expected = golomb_bit_by_bit(seen, at, order);
+          ASSERT_EQ(is_read, expected.has_value()) << "order " << order << ", from bit " << at << ", value " << value << ", " << size << " bytes";
+          if (is_read) {
+            ASSERT_EQ(read, *expected);
+            ASSERT_EQ(read, value);
+          }
+        }
+      }
 }
 
 }  // namespace
