@@ -67,6 +67,12 @@ std::pair<double, End> bytes_at(const std::vector<LogPoint>& points, double erro
   return {std::exp(between(best[i], best[i + 1], (error - best[i].error) / (best[i + 1].error - best[i].error)).*bytes), End::bracketed};
 }
 
+/// Of two seeds' ends the one that says less.
+End worse(End a, End b) {
+  if (a == End::not_reached || b == End::not_reached) return End::not_reached;
+  return a == End::not_left ? a : b;
+}
+
 std::optional<RivalPoint> point_of(const RunRecord& run) {
   const auto& recall = run.truth.delivered_recall;
   const auto &error = run.truth.displayed_error_mm.rms, &payload = run.down_bytes_per_client_per_s, &wire = run.wire_bytes_per_client_per_s;
@@ -119,43 +125,57 @@ class Comparison {
   }
 
  private:
-  static RivalRatio rival(const std::string& policy, const PointsOfSeed& seeds, const std::map<std::uint64_t, RivalPoint>& subjects) {
-    RivalRatio result{.policy = policy, .payload = {}, .wire = {}, .end = End::bracketed};
+  static RivalRatio rival(const std::string& policy, const PointsOfSeed& seeds,
+                          const std::map<std::uint64_t, RivalPoint>& subjects) {
+    RivalRatio result{.policy = policy, .payload = {}, .wire = {}, .payload_end = End::bracketed,
+                      .wire_end = End::bracketed};
     std::vector<std::pair<double, double>> payloads, wires;
     std::set<std::pair<double, double>> settings;
+    std::vector<std::size_t> below, above;
     for (const auto& [seed, subject] : subjects) {
       const auto own = seeds.find(seed);
       if (own == seeds.end()) continue;
-      for (const RivalPoint& point : own->second) settings.emplace(point.setting_rate_hz, point.setting_threshold);
+      for (const RivalPoint& point : own->second)
+        settings.emplace(point.setting_rate_hz, point.setting_threshold);
       const AtEqualError there = at_equal_error(own->second, subject.recall, subject.error_mm);
-      if (there.end == End::not_reached) result.end = End::not_reached;
-      if (there.end == End::not_left && result.end == End::bracketed) result.end = End::not_left;
-      if (there.end == End::not_reached) continue;
+      below.push_back(there.points_below);
+      above.push_back(there.points_above);
+      result.payload_end = worse(result.payload_end, there.payload_end);
+      result.wire_end = worse(result.wire_end, there.wire_end);
+      if (there.payload_end == End::not_reached) continue;
       payloads.emplace_back(there.payload, subject.payload);
       wires.emplace_back(there.wire, subject.wire);
     }
     result.settings = settings.size();
-    if (payloads.empty()) result.end = End::not_reached;
-    if (result.end != End::not_reached) result.payload = ratio_of(payloads), result.wire = ratio_of(wires);
+    if (!below.empty()) {
+      result.points_below = std::ranges::min(below);
+      result.points_above = std::ranges::min(above);
+    }
+    if (payloads.empty()) result.payload_end = result.wire_end = End::not_reached;
+    if (result.payload_end != End::not_reached) {
+      result.payload = ratio_of(payloads);
+      result.wire = ratio_of(wires);
+    }
     return result;
   }
 
   std::map<std::string, PointsOfSeed> points_;  ///< by policy
 };
 
-std::string ratio_text(const std::optional<Ratio>& ratio) {
+std::string ratio_text(const std::optional<Ratio>& ratio, End end) {
   if (!ratio) return "-";
-  if (!ratio->interval) return table_number(ratio->value) + " (one run)";
-  return table_number(ratio->value) + " [" + table_number(ratio->interval->low) + ", " + table_number(ratio->interval->high) + "]";
+  const std::string value = (end == End::not_left ? "<" : "") + table_number(ratio->value);
+  if (!ratio->interval) return value + " (one run)";
+  const bool is_significant = ratio->difference() != Difference::insignificant;
+  return value + " [" + table_number(ratio->interval->low) + ", " +
+         table_number(ratio->interval->high) + "]" + (is_significant ? "" : " ~");
 }
 
-const char* note(End end) {
-  switch (end) {
-    case End::bracketed: return "";
-    case End::not_reached: return "  never so small an error with this recall";
-    case End::not_left: return "  at most: no coarser setting was run";
-  }
-  return "";
+std::string note(const RivalRatio& rival) {
+  if (rival.payload_end == End::not_reached) return "  never so small an error with this recall";
+  if (!rival.has_few_points()) return "";
+  return "  " + std::to_string(rival.points_below) + " points below, " +
+         std::to_string(rival.points_above) + " above";
 }
 
 template <class... Arguments>
@@ -165,12 +185,45 @@ std::string formatted(const char* format, Arguments... arguments) {
   return text;
 }
 
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line;
+}
+
+/// What the marks mean, those that are in the table.
+std::string explanation(std::span<const EqualError> comparisons) {
+  const auto any = [comparisons](const auto& holds) {
+    return std::ranges::any_of(comparisons, [&holds](const EqualError& each) {
+      return std::ranges::any_of(each.rivals, holds);
+    });
+  };
+  const auto is_insignificant = [](const std::optional<Ratio>& ratio) {
+    return ratio && ratio->difference() == Difference::insignificant;
+  };
+  std::string text;
+  if (any([&](const RivalRatio& rival) {
+        return is_insignificant(rival.payload) || is_insignificant(rival.wire);
+      }))
+    text += "~: no significant difference, the interval contains 1\n";
+  if (any([](const RivalRatio& rival) {
+        return rival.payload_end == End::not_left || rival.wire_end == End::not_left;
+      }))
+    text += "<: at most, for no setting that was run has a larger error and sends less\n";
+  if (any([](const RivalRatio& rival) { return rival.has_few_points(); }))
+    text += "points below, above: settings with at most that error and with more, where either are "
+            "fewer than " + std::to_string(points_wanted) + "\n";
+  return text;
+}
+
 }  // namespace
 
 AtEqualError at_equal_error(std::span<const RivalPoint> points, double recall, double error_mm) {
   const std::vector<LogPoint> settings = settings_at_recall(points, recall);
-  const auto [payload, end] = bytes_at(settings, error_mm, &LogPoint::payload);
-  return {payload, bytes_at(settings, error_mm, &LogPoint::wire).first, end};
+  const auto [payload, payload_end] = bytes_at(settings, error_mm, &LogPoint::payload);
+  const auto [wire, wire_end] = bytes_at(settings, error_mm, &LogPoint::wire);
+  const auto points_below = static_cast<std::size_t>(std::ranges::count_if(
+      settings, [error_mm](const LogPoint& point) { return point.error <= std::log(error_mm); }));
+  return {payload, wire, payload_end, wire_end, points_below, settings.size() - points_below};
 }
 
 std::vector<EqualError> equal_errors_of(const Experiment& experiment, std::span<const RunRecord> runs, const std::string& subject) {
@@ -212,26 +265,46 @@ std::string equal_error_table(std::span<const EqualError> comparisons) {
     text += formatted("    %-20s payload %-20s wire %-20s displayed error %s mm, at %g Hz\n", each.subject.c_str(), (table_number(1e-3 * each.payload) + " kB/s").c_str(),
                       (table_number(1e-3 * each.wire) + " kB/s").c_str(), table_number(each.error_mm).c_str(), each.rate_hz);
     for (const RivalRatio& rival : each.rivals)
-      text += formatted("    %-20s payload %-20s wire %-20s", rival.policy.c_str(), ratio_text(rival.payload).c_str(), ratio_text(rival.wire).c_str()) + note(rival.end) + "\n";
+      text += trimmed(formatted("    %-20s payload %-20s wire %-20s", rival.policy.c_str(),
+                                ratio_text(rival.payload, rival.payload_end).c_str(),
+                                ratio_text(rival.wire, rival.wire_end).c_str()) +
+                      note(rival)) + "\n";
   }
-  return text;
+  return text + explanation(comparisons);
 }
 
 std::string to_csv(std::span<const EqualError> comparisons) {
-  std::string csv = "mode,scheme,clients,delay_ms,policy,tick_rate_hz,recall_is,recall,displayed_error_mm_rms,down_bytes_per_client_per_s,wire_bytes_per_client_per_s,rival,settings,"
-                    "end,payload_ratio,payload_ratio_low,payload_ratio_high,wire_ratio,wire_ratio_low,wire_ratio_high,pairs\n";
-  const auto optional_ends = [](const std::optional<Ratio>& ratio) {
+  std::string csv =
+      "mode,scheme,clients,delay_ms,policy,tick_rate_hz,recall_is,recall,displayed_error_mm_rms,"
+      "down_bytes_per_client_per_s,wire_bytes_per_client_per_s,rival,settings,end,payload_ratio,"
+      "payload_ratio_low,payload_ratio_high,wire_ratio,wire_ratio_low,wire_ratio_high,pairs,"
+      "wire_end,points_below,points_above,payload_difference,wire_difference\n";
+  const auto ratio_and_ends = [](const std::optional<Ratio>& ratio) {
     if (!ratio) return std::string(",,");
-    const bool has_interval = ratio->interval.has_value();
-    return csv_number(ratio->value) + "," + (has_interval ? csv_number(ratio->interval->low) : "") + "," + (has_interval ? csv_number(ratio->interval->high) : "");
+    if (!ratio->interval) return csv_number(ratio->value) + ",,";
+    return csv_number(ratio->value) + "," + csv_number(ratio->interval->low) + "," +
+           csv_number(ratio->interval->high);
+  };
+  const auto difference = [](const std::optional<Ratio>& ratio) {
+    return std::string(ratio ? words_for(ratio->difference()) : "");
+  };
+  const auto name_of_end = [](End end) {
+    constexpr const char* names[] = {"bracketed", "not_reached", "not_left"};
+    return std::string(names[static_cast<std::size_t>(end)]);
   };
   for (const EqualError& each : comparisons)
     for (const RivalRatio& rival : each.rivals) {
-      const char* const ends[] = {"bracketed", "not_reached", "not_left"};
-      csv += each.mode + ",\"" + each.scheme + "\"," + std::to_string(each.clients) + "," + csv_number(each.delay_ms) + "," + each.subject + "," + csv_number(each.rate_hz) + "," +
-             (each.is_own_recall ? "own" : "asked_for") + "," + csv_number(each.recall) + "," + csv_number(each.error_mm) + "," + csv_number(each.payload) + "," + csv_number(each.wire) + "," + rival.policy + "," +
-             std::to_string(rival.settings) + "," + ends[static_cast<std::size_t>(rival.end)] + "," + optional_ends(rival.payload) + "," + optional_ends(rival.wire) + "," +
-             std::to_string(rival.payload ? rival.payload->pairs : 0) + "\n";
+      csv += each.mode + ",\"" + each.scheme + "\"," + std::to_string(each.clients) + "," +
+             csv_number(each.delay_ms) + "," + each.subject + "," + csv_number(each.rate_hz) + "," +
+             (each.is_own_recall ? "own" : "asked_for") + "," + csv_number(each.recall) + "," +
+             csv_number(each.error_mm) + "," + csv_number(each.payload) + "," +
+             csv_number(each.wire) + "," + rival.policy + "," + std::to_string(rival.settings) +
+             "," + name_of_end(rival.payload_end) + "," + ratio_and_ends(rival.payload) + "," +
+             ratio_and_ends(rival.wire) + "," +
+             std::to_string(rival.payload ? rival.payload->pairs : 0) + "," +
+             name_of_end(rival.wire_end) + "," + std::to_string(rival.points_below) + "," +
+             std::to_string(rival.points_above) + "," + difference(rival.payload) + "," +
+             difference(rival.wire) + "\n";
     }
   return csv;
 }

@@ -1,7 +1,9 @@
 // What rivals send at the displayed error and the recall of the policy that they are compared with, interpolated along each one's own settings (docs/metrics.md, "Equal error").
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,13 +26,19 @@ struct RivalPoint {
 
 /// What a policy sends at a recall and an error, or why that cannot be told.
 struct AtEqualError {
-  double payload = 0.0, wire = 0.0;
   enum class End : std::uint8_t {
     bracketed,   ///< settings on both sides of the error were run
     not_reached, ///< no setting that was run has so small an error with that recall
-    not_left     ///< every setting that was run has a smaller error: the bytes are an upper bound, for a coarser one may do
-  } end = End::not_reached;
+    not_left     ///< none that errs more sends less: an upper bound, for a coarser one may do
+  };
+  double payload = 0.0, wire = 0.0;
+  End payload_end = End::not_reached, wire_end = End::not_reached;
+  /// Settings that have the recall, by whether their error is at most the one asked for.
+  std::size_t points_below = 0, points_above = 0;
 };
+
+/// With fewer points on a side of the error, a curve's course there is hardly known.
+inline constexpr std::size_t points_wanted = 5;
 
 /// The least that settings along `points` send with a recall of at least `recall` and a displayed error of at most `error_mm`. Along margins, bytes and error are
 /// interpolated in recall (their logarithms linearly); along settings, on the frontier of those that no other beats in both error and bytes, linearly in the logarithms.
@@ -40,8 +48,11 @@ AtEqualError at_equal_error(std::span<const RivalPoint> points, double recall, d
 struct RivalRatio {
   std::string policy;
   std::optional<Ratio> payload, wire;
-  AtEqualError::End end = AtEqualError::End::not_reached;  ///< the worst of all seeds'
-  std::size_t settings = 0;                                ///< that were run
+  AtEqualError::End payload_end = AtEqualError::End::not_reached;  ///< the worst of all seeds'
+  AtEqualError::End wire_end = AtEqualError::End::not_reached;
+  std::size_t settings = 0;                        ///< that were run
+  std::size_t points_below = 0, points_above = 0;  ///< the least of all seeds'
+  bool has_few_points() const { return std::min(points_below, points_above) < points_wanted; }
 };
 
 /// One policy beside its rivals under one scheme, at one recall.

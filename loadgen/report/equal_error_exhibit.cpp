@@ -16,8 +16,18 @@ namespace {
 std::string ratio_text(const std::optional<Ratio>& ratio, AtEqualError::End end) {
   if (!ratio) return "\xE2\x80\x93";
   std::string text = plain_number(ratio->value);
-  if (ratio->interval) text += " (" + plain_number(ratio->interval->low) + " to " + plain_number(ratio->interval->high) + ")";
+  if (ratio->interval)
+    text += " (" + plain_number(ratio->interval->low) + " to " +
+            plain_number(ratio->interval->high) + ")";
+  if (ratio->difference() == Difference::insignificant)
+    text += std::string(", ") + words_for(Difference::insignificant);
   return text + (end == AtEqualError::End::not_left ? ", at most" : "");
+}
+
+std::string points_text(const RivalRatio& rival) {
+  const std::string text =
+      std::to_string(rival.points_below) + ", " + std::to_string(rival.points_above);
+  return rival.has_few_points() ? text + " (few)" : text;
 }
 
 std::string conditions_text(const EqualError& each) {
@@ -27,16 +37,26 @@ std::string conditions_text(const EqualError& each) {
 void add_table(Exhibit& exhibit, const std::vector<EqualError>& comparisons) {
   exhibit.html += "<div class=\"scroll\"><table>\n<thead><tr><th class=\"text\">filter, crowd, delay</th><th class=\"text\">at recall</th><th class=\"text\">policy</th>"
                   "<th>payload<br/>kB/s/client</th><th>on the wire<br/>kB/s/client</th><th>displayed error<br/>RMS mm</th><th>times the payload<br/>(95 % interval)</th>"
-                  "<th>times on the wire<br/>(95 % interval)</th></tr></thead>\n<tbody>\n";
+                  "<th>times on the wire<br/>(95 % interval)</th>"
+                  "<th>points with at most<br/>and with more error</th></tr></thead>\n<tbody>\n";
   for (const EqualError& each : comparisons) {
     exhibit.html += "<tr class=\"first\"><td class=\"text\">" + escaped(conditions_text(each)) + "</td><td class=\"text\">" + plain_number(each.recall, 4) + (each.is_own_recall ? ", without a margin" : ", by its margin") +
                     "</td><td class=\"text\">" + escaped(each.subject) + " at " + shortest(each.rate_hz) + " Hz</td><td>" + plain_number(1e-3 * each.payload) + "</td><td>" + plain_number(1e-3 * each.wire) + "</td><td>" +
-                    plain_number(each.error_mm) + "</td><td>1</td><td>1</td></tr>\n";
+                    plain_number(each.error_mm) + "</td><td>1</td><td>1</td><td></td></tr>\n";
     for (const RivalRatio& rival : each.rivals)
-      exhibit.html += "<tr><td></td><td></td><td class=\"text\">" + escaped(rival.policy) + "</td><td></td><td></td><td></td><td>" +
-                      (rival.end == AtEqualError::End::not_reached ? "never so small an error with this recall" : ratio_text(rival.payload, rival.end)) + "</td><td>" + ratio_text(rival.wire, rival.end) + "</td></tr>\n";
+      exhibit.html += "<tr><td></td><td></td><td class=\"text\">" + escaped(rival.policy) +
+                      "</td><td></td><td></td><td></td><td>" +
+                      (rival.payload_end == AtEqualError::End::not_reached
+                           ? "never so small an error with this recall"
+                           : ratio_text(rival.payload, rival.payload_end)) +
+                      "</td><td>" + ratio_text(rival.wire, rival.wire_end) + "</td><td>" +
+                      points_text(rival) + "</td></tr>\n";
   }
-  exhibit.html += "</tbody></table></div>\n<p class=\"data\">Data: equal_error.csv</p>\n";
+  exhibit.html += "</tbody></table></div>\n"
+                  "<p class=\"faint\">Points: settings that have the recall, with at most and with "
+                  "more than the error compared, the fewest of all seeds; few: fewer than " +
+                  std::to_string(points_wanted) +
+                  " on a side.</p>\n<p class=\"data\">Data: equal_error.csv</p>\n";
 }
 
 /// A policy's settings at the smallest margin that was run: mean error and bytes, the ones that no other beats in both.
@@ -113,7 +133,9 @@ std::string equal_error_headline(const std::vector<EqualError>& comparisons) {
   const auto best = std::ranges::find_if(first.rivals, [](const RivalRatio& rival) { return rival.payload && rival.wire; });
   if (best == first.rivals.end()) return "";
   return "At equal displayed error (" + plain_number(first.error_mm) + " mm RMS) and equal recall (" + plain_number(first.recall) + ") the best rival of " + first.subject + ", " + best->policy + ", sends " +
-         ratio_text(best->payload, best->end) + " times its payload and " + ratio_text(best->wire, best->end) + " times its bytes on the wire, under " + conditions_text(first) + ".";
+         ratio_text(best->payload, best->payload_end) + " times its payload and " +
+         ratio_text(best->wire, best->wire_end) + " times its bytes on the wire, under " +
+         conditions_text(first) + ".";
 }
 
 }  // namespace rink::loadgen
