@@ -13,7 +13,6 @@
 #include "game/model/scene_file.h"
 #include "game/model/report_schema.h"
 #include "game/version/version.h"
-#include "loadgen/run_journal.h"
 
 namespace rink::loadgen {
 namespace {
@@ -112,6 +111,9 @@ void check_manifest(const std::filesystem::path& folder) {
   if (manifest["schema"] != game::report_schema)
     throw ReportFolderError(name + ": of schema " + manifest["schema"].dump() + (manifest.contains("version") ? ", written by version " + manifest["version"].dump() : "") + "; this program reads schema " +
                             std::to_string(game::report_schema));
+  if (manifest.value("version", nlohmann::json()) != game::built_version())
+    throw ReportFolderError(name + ": written by " + (manifest.contains("version") ? "version " + manifest["version"].dump() : std::string("a program without a version")) +
+                            "; this is version " + game::built_version() + ", whose figures may mean something else");
   for (const auto& [file, sealed] : manifest["files"].items()) {
     if (!sealed.is_object() || !sealed.contains("bytes") || !sealed["bytes"].is_number_unsigned() || !sealed.contains("fnv1a") || !sealed["fnv1a"].is_string())
       throw ReportFolderError(name + ": " + file + " has neither length nor hash");
@@ -128,13 +130,13 @@ void check_manifest(const std::filesystem::path& folder) {
 Experiment experiment_of_report(const std::filesystem::path& folder) {
   Experiment experiment = parse_experiment(text_in(folder / "experiment.toml"), folder / "experiment.toml", {});
   if (!has_installed_scene(experiment.scene, text_in(folder / "scene.toml"))) set_scene(experiment, (folder / "scene.toml").string());
-  set_seeds(experiment, runs_of_report(folder));
+  set_seeds(experiment, journal_of_report(folder).runs);
   return experiment;
 }
 
-std::vector<RunRecord> runs_of_report(const std::filesystem::path& folder) {
+Journal journal_of_report(const std::filesystem::path& folder) {
   try {
-    return read_journal(folder / "runs.jsonl").runs;
+    return read_journal(folder / "runs.jsonl");
   } catch (const OutputError& error) {
     throw ReportFolderError(error.what());
   }
@@ -183,6 +185,11 @@ std::string words_for(const Repetition& repetition, const std::filesystem::path&
   text.back() = '\n';
   for (const std::string& difference : repetition.differing) text += "  " + difference + "\n";
   return text;
+}
+
+std::string commit_words(const Journal& journal, const std::filesystem::path& folder) {
+  const std::string before = journal.head ? journal.head->commit : "unknown", now = game::built_commit();
+  return before == now ? "" : folder.string() + ": made by commit " + before + ", repeated by commit " + now + "\n";
 }
 
 }  // namespace rink::loadgen

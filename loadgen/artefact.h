@@ -10,6 +10,7 @@
 
 #include "loadgen/experiment.h"
 #include "loadgen/results.h"
+#include "loadgen/run_journal.h"
 #include "loadgen/run_record.h"
 
 namespace rink::loadgen {
@@ -26,14 +27,14 @@ void keep_inputs(const ResultsDirectory& results, const Experiment& experiment);
 /// Writes manifest.json: the schema, the version, and length and hash (FNV-1a, 64 bits) of every file below the folder but itself. Throws OutputError.
 void write_manifest(const ResultsDirectory& results);
 
-/// Throws ReportFolderError if the folder has no manifest, is of another schema, or lacks a file of the manifest or has it altered.
+/// Throws ReportFolderError if the folder has no manifest, is of another schema or version, or lacks a file of the manifest or has it altered.
 void check_manifest(const std::filesystem::path& folder);
 
 /// The experiment of a report folder, with the scene as it was then and the seeds of its runs. Throws ReportFolderError, ExperimentError.
 Experiment experiment_of_report(const std::filesystem::path& folder);
 
-/// Throws ReportFolderError, which names the line, if they cannot be read.
-std::vector<RunRecord> runs_of_report(const std::filesystem::path& folder);
+/// The runs of a report folder, and the commit of the program that made them. Throws ReportFolderError, which names the line, if they cannot be read.
+Journal journal_of_report(const std::filesystem::path& folder);
 
 /// How runs said again what they had said.
 struct Repetition {
@@ -48,5 +49,7 @@ struct Repetition {
 /// Runs of the same cells; what only one side has is compared with nothing.
 Repetition repetition_of(std::span<const RunRecord> before, std::span<const RunRecord> again);
 std::string words_for(const Repetition& repetition, const std::filesystem::path& folder);
+/// That the folder's runs were made by another commit than this program's; empty if they were not.
+std::string commit_words(const Journal& journal, const std::filesystem::path& folder);
 
 }  // namespace rink::loadgen

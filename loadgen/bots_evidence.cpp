@@ -159,6 +159,21 @@ BotsEvidence read_lines(game::EvidenceReader& reader) {
 
 }  // namespace
 
+BotsEvidence rounded(BotsEvidence evidence) {
+  const auto round_position = [](physics::Vector2& position) {
+    for (double& coordinate : position)
+      coordinate = static_cast<double>(rounded(coordinate, nanometres)) / nanometres;
+  };
+  for (BotsEvidence::Bot& bot : evidence.bots)
+    for (BotsEvidence::ScopeChange& change : bot.changes)
+      change.instant_s = 1e-6 * static_cast<double>(rounded(change.instant_s, 1e6));
+  for (BotsEvidence::Belief& belief : evidence.beliefs) {
+    round_position(belief.matched);
+    round_position(belief.displayed);
+  }
+  return evidence;
+}
+
 void write_evidence(const std::string& file, const BotsEvidence& evidence) {
   game::EvidenceWriter writer(file);
   writer.line({{"rink-bots-evidence", version}, {"clients", evidence.clients}, {"from_s", evidence.from_s}, {"until_s", evidence.until_s}, {"is_complete", evidence.is_complete},

@@ -42,7 +42,10 @@ struct BotsEvidence {
   std::vector<Belief> beliefs;
 };
 
-/// Positions are rounded to a nanometre. Throws std::runtime_error naming `file` if it cannot be written.
+/// `evidence` as a file gives it back: positions rounded to a nanometre, changes of scope to a
+/// microsecond.
+BotsEvidence rounded(BotsEvidence evidence);
+/// Rounds so. Throws std::runtime_error naming `file` if it cannot be written.
 void write_evidence(const std::string& file, const BotsEvidence& evidence);
 /// Throws game::EvidenceError naming file, line and what was expected.
 BotsEvidence read_bots_evidence(const std::string& file);

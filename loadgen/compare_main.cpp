@@ -89,7 +89,7 @@ void heed_signals() {
 struct Options {
   std::string experiment;
   std::string out, programs, from, trace;
-  bool may_replace = false, is_resumed = false, is_dry_run = false;
+  bool may_replace = false, is_resumed = false, is_dry_run = false, keeps_evidence = false;
   std::vector<std::string> assertions;
   std::uint32_t seeds = 0;
   double until_width = 0.0;  ///< a fraction; 0: run the seeds and be done
@@ -140,6 +140,7 @@ RunnerSettings runner_settings(const Options& options, bool needs_peers) {
   expect_program(settings.bots);
   if (needs_peers) expect_program(settings.peer);
   settings.is_interrupted = &is_interrupted;
+  settings.keeps_evidence_of_curves = options.keeps_evidence;
   pin_apart(settings, allowed_processors());
   return settings;
 }
@@ -230,9 +231,21 @@ Continuation opened_results(const Options& options, const Experiment& experiment
   return continued_in(options.out.empty() ? latest_directory(".") : std::filesystem::path(options.out), experiment, head, options.may_replace);
 }
 
+/// What is repeated must not be overwritten by its repetition.
+void expect_other_folder(const Options& options) {
+  if (options.out.empty()) return;
+  if (std::filesystem::weakly_canonical(options.out) == std::filesystem::weakly_canonical(options.from))
+    throw ExperimentError("--out " + options.out + " is the folder of --from: expected another one for the repetition");
+}
+
 ExitStatus compare(const Options& options, const std::vector<std::string>& command_line) {
   const std::string standard = options.saturate.is_wanted ? "saturate" : "default";
-  if (!options.from.empty()) check_manifest(options.from);
+  Journal repeated;  // read before anything is written
+  if (!options.from.empty()) {
+    check_manifest(options.from);
+    expect_other_folder(options);
+    repeated = journal_of_report(options.from);
+  }
   Experiment experiment = !options.from.empty() ? experiment_of_report(options.from) : load_experiment(find_experiment(options.experiment.empty() ? standard : options.experiment), {});
   if (options.seeds > 0) set_seeds(experiment, options.until_width > 0.0 ? std::min(options.seeds, least_replications) : options.seeds);
   std::vector<Assertion> assertions;
@@ -287,7 +300,8 @@ ExitStatus compare(const Options& options, const std::vector<std::string>& comma
   for (const WideRow& row : wide) std::cerr << "rink-compare: --until-width: after " << row.runs << " replications " << row.words << "\n";
   ExitStatus status = status_of(outcome, do_assertions_hold);
   if (!options.from.empty() && !outcome.was_interrupted) {
-    const Repetition repetition = repetition_of(rink::loadgen::runs_of_report(options.from), outcome.runs);
+    const Repetition repetition = repetition_of(repeated.runs, outcome.runs);
+    std::cerr << commit_words(repeated, options.from);
     (repetition.is_same() ? std::cout : std::cerr) << words_for(repetition, options.from) << std::flush;
     if (status == success && !repetition.is_same()) status = not_repeated;
   }
@@ -333,6 +347,8 @@ int main(int argc, char** argv) {
       ->excludes(app.get_option("EXPERIMENT"))
       ->excludes(app.get_option("--from"))
       ->excludes(resume);
+  app.add_flag("--keep-evidence", options.keeps_evidence,
+               "keep the evidence of points of curves too, for docs/analysis/recompute.py; without it, --from with it makes the same again");
   app.add_option("--seeds", options.seeds, "replications of every cell: so many of the experiment's seeds, and the numbers after them; with --until-width at most so many")->check(rink::game::number_from(1, 10'000));
   const auto take_width = [&options](const std::string& text) {
     try {

@@ -81,7 +81,11 @@ void read_baseline(ExperimentReader& reader, Experiment& result) {
   const auto read = [&reader](const char* key, std::string& name, const std::vector<std::string>& compared) {
     const auto is_compared = [&compared](const std::string& word) { return std::find(compared.begin(), compared.end(), word) != compared.end(); };
     if (!is_compared(name)) name = compared.front();
-    reader.text(key, name, "one that is compared: " + joined(compared), is_compared);
+    try {
+      reader.text(key, name, "one that is compared: " + joined(compared), is_compared);
+    } catch (const ExperimentError& error) {
+      throw BaselineError(error.what());
+    }
   };
   std::vector<std::string> schemes = result.parts.empty() ? result.schemes : std::vector<std::string>(), policies = result.parts.empty() ? result.policies : schemes;
   for (const Experiment& part : result.parts) {

@@ -270,11 +270,12 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);
   judge(record, server, bots);
   if (!settings.wants_truth) return;
-  if (!settings.keeps_evidence) return add_truth(record, experiment, server_evidence, bots_evidence);
+  if (experiment.is_of_curves) add_truth(record, experiment, server_evidence, rounded(bots_evidence));
+  if (!settings.keeps_evidence) return;
   const std::string server_file = settings.directory / (name_of(cell) + ".server.jsonl"), bots_file = settings.directory / (name_of(cell) + ".bots.jsonl");
   game::write_evidence(server_file, server_evidence);
   write_evidence(bots_file, bots_evidence);
-  add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
+  if (!experiment.is_of_curves) add_truth(record, experiment, server_file, bots_file, discovery_file(settings.directory, cell));
 }
 
 }  // namespace

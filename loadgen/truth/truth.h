@@ -38,6 +38,6 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell, const
 /// `record.truth.trouble`; a game that ends elsewhere when it is played again makes the run invalid. What was discovered when goes to `discovery_file` (loadgen/discovery_table.h), if there is one;
 /// throws OutputError if that cannot be written, and nothing else.
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file, const std::string& bots_file, const std::filesystem::path& discovery_file = {});
-/// The same of evidence that is in memory, which is not rounded as files round it; entries are passed over.
+/// The same of evidence that is in memory, which should be `rounded` so that files say the same. Entries are passed over.
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerEvidence& server, const BotsEvidence& bots);
 }  // namespace rink::loadgen

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/command.h"
@@ -130,6 +131,45 @@ TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun)
   EXPECT_THAT(said_, AllOf(HasSubstr("1 of 2 runs in virtual time say the same"), HasSubstr("-3-seed1: other figures in virtual time")));
 }
 
+TEST_F(ReportFolder, IsNeverOverwrittenByItsOwnRepetition) {
+  ASSERT_EQ(make(), 0) << said_;
+  replace("first/runs.jsonl", "\"update_age_samples\":", "\"update_age_samples\":1");
+  write_manifest(ResultsDirectory::resumed(folder_ / "first", content("first/runs.jsonl").size()));
+  const std::string before = content("first/runs.jsonl");
+  for (const char* same : {"first", "first/", "first/../first"}) {
+    EXPECT_EQ(run("compare --from " + file("first") + " --out " + file(same) + " --force"), 2) << same;
+    EXPECT_THAT(said_, HasSubstr("is the folder of --from"));
+    EXPECT_EQ(content("first/runs.jsonl"), before);
+  }
+}
+
+TEST_F(ReportFolder, OfAnotherCommitIsRepeatedAndThatIsSaid) {
+  ASSERT_EQ(make(), 0) << said_;
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(said_, Not(HasSubstr("made by commit")));
+  std::string runs = content("first/runs.jsonl");
+  runs.insert(runs.rfind("\"commit\":\"", runs.find('\n')) + 10, "abc");  // behind the provenance
+  write("first/runs.jsonl", runs);
+  write_manifest(ResultsDirectory::resumed(folder_ / "first", content("first/runs.jsonl").size()));
+  EXPECT_EQ(repeat(), 0) << said_;
+  EXPECT_THAT(said_, AllOf(HasSubstr("first: made by commit abc"), HasSubstr(", repeated by commit ")));
+}
+
+TEST_F(ReportFolder, KeepsTheEvidenceOfPointsOfCurvesIfAskedTo) {
+  write("small.toml", content("small.toml") + "[[parts]]\nname = 'shown'\n[[parts]]\nname = 'points'\ncurves = true\nschemes = 'region'\n");
+  const auto evidence_of_points = [this](const std::string& folder) {
+    return std::ranges::count_if(std::filesystem::directory_iterator(folder_ / folder / "cells"), [](const auto& entry) {
+      const std::string name = entry.path().filename().string();
+      return name.starts_with("points-") && name.ends_with(".bots.jsonl");
+    });
+  };
+  ASSERT_EQ(make(), 0) << said_;
+  EXPECT_EQ(evidence_of_points("first"), 0);
+  EXPECT_EQ(repeat(" --keep-evidence"), 0) << said_;
+  EXPECT_THAT(printed_, HasSubstr("3 of 3 runs in virtual time say the same in every figure"));
+  EXPECT_EQ(evidence_of_points("second"), 1);
+}
+
 TEST_F(ReportFolder, IsRefusedByTheFileThatIsAlteredOrMissing) {
   ASSERT_EQ(make(), 0) << said_;
   for (const char* name : {"first/scene.toml", "first/experiment.toml", "first/runs.jsonl", "first/keys/seed1-3.keys", "first/report.html"}) {
@@ -152,6 +192,10 @@ TEST_F(ReportFolder, OfAnotherVersionOrNoneIsNamed) {
   replace("first/manifest.json", "\"schema\": 1", "\"schema\": 2");
   EXPECT_EQ(repeat(), 10);
   EXPECT_THAT(said_, AllOf(HasSubstr("manifest.json: of schema 2, written by version"), HasSubstr("this program reads schema 1")));
+  replace("first/manifest.json", "\"schema\": 2", "\"schema\": 1");
+  replace("first/manifest.json", "\"version\": \"", "\"version\": \"9");
+  EXPECT_EQ(repeat(), 10);
+  EXPECT_THAT(said_, AllOf(HasSubstr("manifest.json: written by version \"9"), HasSubstr("; this is version ")));
   write("first/manifest.json", "[]");
   EXPECT_EQ(repeat(), 10);
   EXPECT_THAT(said_, HasSubstr("not a manifest of a report folder"));
@@ -223,6 +267,11 @@ TEST_F(ReportFolder, WithABaselineThatNoCellHasEndsWithItsOwnStatus) {
   EXPECT_EQ(run("compare " + file("small.toml") + " --until-width wide"), 2);
   EXPECT_EQ(run("compare " + file("small.toml") + " --out " + file("again") + " --seeds 4 --until-width 90%"), 0) << said_;
   EXPECT_THAT(content("again/report.html"), HasSubstr("6 of 6 cells run")) << "three replications are enough for that";
+  for (const char* baseline : {"baseline_scheme = 'aura'", "baseline_policy = 'snapshot'"}) {
+    replace("small.toml", content("small.toml").substr(content("small.toml").find("baseline")), std::string(baseline) + "\n");
+    EXPECT_EQ(make(), 8) << baseline;
+    EXPECT_THAT(said_, HasSubstr("one that is compared: ")) << baseline;
+  }
 }
 
 }  // namespace

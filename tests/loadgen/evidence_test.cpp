@@ -101,6 +101,22 @@ TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
   }
 }
 
+TEST_F(EvidenceFile, OfBotsGivesBackWhatIsRoundedInMemory) {
+  BotsEvidence bots;
+  bots.bots = {{100, {{-1.0 / 3.0, 100, true}, {2.0 / 3.0, 102, false}}}};
+  bots.beliefs = {{.object = 7, .bytes = 8, .is_in_scope = true, .matched = {1.0 / 3.0, -2.0 / 3.0}, .displayed = {1.0 / 3.0 + 1e-12, 1e-10}},
+                  {.object = 8, .bytes = 8, .is_in_scope = true, .matched = {10.0 / 3.0, 0.0}, .displayed = {10.0 / 3.0, 0.0}}};
+  bots.samples = {{.bot = 0, .displayed_s = 1.0 / 3.0, .matched_s = 0.3, .window_s = 0.05, .first = 0, .last = 2}};
+  write_evidence(file(), bots);
+  const BotsEvidence read = read_bots_evidence(file()), in_memory = rounded(bots);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.bots[0].changes[i].instant_s, in_memory.bots[0].changes[i].instant_s) << i;
+    EXPECT_EQ(read.beliefs[i].matched, in_memory.beliefs[i].matched) << i;
+    EXPECT_EQ(read.beliefs[i].displayed, in_memory.beliefs[i].displayed) << i;
+  }
+  EXPECT_EQ(read.samples[0].displayed_s, in_memory.samples[0].displayed_s);
+}
+
 TEST_F(EvidenceFile, OfBotsWithASampleThatIsNoneIsRefusedWithItsLineAndWhatWasExpected) {
   const std::string head = R"({"bot":0,"displayed_s":1,"matched_s":1,"window_s":0.1,"entities_nm":)";
   const auto complaint = [&](const std::string& sample) {
