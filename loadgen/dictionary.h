@@ -22,7 +22,13 @@ std::span<const Definition> figure_definitions();
 /// The one that the figure called `name` is a member of, e.g. update_age_ms of update_age_ms_p99; null if there is none.
 const Definition* definition_of(const std::string& name);
 
-/// Every column of the cell, every figure and every further column of discovery.csv as CSV, a line each: name, kind (cell, figure or discovery), unit, alias, field, empty of the last, and definition.
+/// That of the figure called `name`, of which there must be a definition (asserted).
+std::string unit_of(const std::string& name);
+
+/// Every column of the cell, every figure, and every further column of the tables of results as
+/// CSV, a line each: name, kind (cell, figure, or the table's name without its ending), unit,
+/// alias, field, which is empty of the tables' own columns, and definition. No two lines share name
+/// and kind.
 std::string data_dictionary_csv();
 
 }  // namespace rink::loadgen

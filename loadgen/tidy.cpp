@@ -1,8 +1,6 @@
 // Lines of runs, each begun by what names its cell.
 #include "loadgen/tidy.h"
 
-#include <cassert>
-
 #include "loadgen/csv_number.h"
 #include "loadgen/csv_text.h"
 #include "loadgen/dictionary.h"
@@ -30,10 +28,8 @@ std::string tidy_csv(std::span<const RunRecord> runs) {
   for (const RunRecord& run : runs) {
     const std::string names = names_of_run(run);
     for (const Figure& figure : figures()) {
-      const auto value = figure.of(run);
-      const Definition* definition = definition_of(figure.name);
-      assert(definition != nullptr);
-      if (value) csv += names + figure.name + "," + definition->unit + "," + csv_number(value) + "\n";
+      if (const auto value = figure.of(run))
+        csv += names + figure.name + "," + unit_of(figure.name) + "," + csv_number(value) + "\n";
     }
   }
   return csv;

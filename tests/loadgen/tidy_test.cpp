@@ -8,10 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "canned_reports.h"
 #include "loadgen/dictionary.h"
+#include "loadgen/discovery_table.h"
+#include "loadgen/equal_error.h"
+#include "loadgen/growth.h"
 #include "loadgen/parameter.h"
+#include "loadgen/saturate_command.h"
+#include "loadgen/server_cores.h"
 #include "loadgen/summary.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
@@ -88,13 +94,36 @@ TEST(Tidy, WhatWasNotMeasuredHasNoLine) {
   EXPECT_THAT(rows_of(tidy_csv({})), SizeIs(1));
 }
 
+// update_age_samples, interactions, the keys, measured_s, replaced pucks and some 95th percentiles
+// were missing.
+TEST(Tidy, EveryNumberThatARunHasIsAFigureOrASetting) {
+  std::set<std::string> known{"duration_s", "warm_up_s", "start_s", "delay_ms", "view_area"};
+  for (const Definition& cell : cell_definitions()) known.insert(cell.field);
+  for (const Figure& figure : figures()) known.insert(figure.name);
+  const std::set<std::string> texts{"state_hash", "why_invalid",  "scene",     "population",
+                                    "keys",       "players",      "transport", "keys_trouble",
+                                    "relevance",  "truth_trouble"};
+  const auto line = to_json(some_run("none", 1));
+  for (const auto& [field, value] : line.items()) {
+    if (value.is_object()) {
+      for (const auto& member : value.items())
+        EXPECT_THAT(known, Contains(field + "_" + member.key()));
+    } else if (!texts.contains(field)) {
+      EXPECT_THAT(known, Contains(field));
+    }
+  }
+}
+
 TEST(Dictionary, DefinesEveryFigureInASentenceWithAUnit) {
   for (const Figure& figure : figures()) {
     const Definition* definition = definition_of(figure.name);
     ASSERT_NE(definition, nullptr) << figure.name;
     EXPECT_GT(std::string(definition->meaning).size(), 25u) << figure.name;
-    EXPECT_NE(std::string(definition->unit), "") << figure.name;
+    EXPECT_NE(unit_of(figure.name), "") << figure.name;
   }
+  EXPECT_EQ(unit_of("displayed_error_mm_replaced_rms"), "mm");
+  EXPECT_EQ(unit_of("displayed_error_mm_replaced_samples"), "1")
+      << "a number of samples is no distance";
   const std::map<std::string, std::string> units{{"_ms", "ms"}, {"_mm", "mm"}, {"_us", "us"}, {"_us_per_tick", "us"},
                                                  {"_cpu_s", "s"}, {"_fraction", "1"}, {"bytes_per_client_per_s", "B/s"}};
   for (const Definition& definition : figure_definitions())
@@ -118,6 +147,7 @@ TEST(Dictionary, HasALineForEveryColumnAndEveryFigureOfTheLongTable) {
   std::map<std::string, std::vector<std::string>> lines;
   for (std::size_t i = 1; i < dictionary.size(); ++i) {
     ASSERT_THAT(dictionary[i], SizeIs(6));
+    if (dictionary[i][1] != "cell" && dictionary[i][1] != "figure") continue;
     EXPECT_TRUE(lines.emplace(dictionary[i][0], dictionary[i]).second) << dictionary[i][0] << " is defined twice";
   }
   const auto rows = rows_of(tidy_csv(std::span(&run, 1)));
@@ -125,6 +155,61 @@ TEST(Dictionary, HasALineForEveryColumnAndEveryFigureOfTheLongTable) {
   for (auto column = rows[0].begin(); column != rows[0].end() - 3; ++column) EXPECT_EQ(lines[*column].at(1), "cell") << *column;
   for (const Figure& figure : figures()) EXPECT_EQ(lines[figure.name].at(1), "figure");
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(rows[i][18], lines[rows[i][17]].at(2));
+}
+
+/// (name, kind) of each line of the dictionary.
+std::set<std::pair<std::string, std::string>> names_and_kinds() {
+  std::set<std::pair<std::string, std::string>> all;
+  auto rows = rows_of(data_dictionary_csv());
+  rows.erase(rows.begin());
+  for (const auto& row : rows)
+    EXPECT_TRUE(all.emplace(row[0], row[1]).second) << row[1] << " " << row[0] << " is there twice";
+  return all;
+}
+
+TEST(Dictionary, HasALineForEveryColumnOfEveryTable) {
+  const std::map<std::string, std::string> tables{
+      {"tidy", tidy_csv({})},
+      {"summary", to_csv(std::span<const SummaryRow>())},
+      {"comparisons", comparisons_csv({}, {})},
+      {"equal_error", to_csv(std::span<const EqualError>())},
+      {"growth", to_csv(std::span<const Growth>())},
+      {"saturation", to_csv(std::span<const Saturation>())},
+      {"server_cores", to_csv(std::span<const CoresRatio>())},
+      {"discovery", discovery_csv({})}};
+  const auto defined = names_and_kinds();
+  std::set<std::pair<std::string, std::string>> used;
+  for (const auto& [table, csv] : tables) {
+    const auto rows = rows_of(csv);
+    for (std::string column : rows.front()) {
+      for (const Figure& figure : figures())
+        if (table == "summary" && column.starts_with(std::string(figure.name) + "_"))
+          column = "FIGURE" + column.substr(column.rfind('_'));
+      used.emplace(column, table);
+      EXPECT_TRUE(defined.contains({column, table}) || defined.contains({column, "cell"}) ||
+                  defined.contains({column, "figure"}))
+          << table << ".csv: " << column;
+    }
+  }
+  for (const auto& each : defined) {
+    if (each.second == "cell" || each.second == "figure") continue;
+    EXPECT_TRUE(used.contains(each)) << each.second << ".csv has no column " << each.first;
+  }
+}
+
+TEST(Dictionary, CallsNoWallTimeProcessorTime) {
+  for (const auto& row : rows_of(data_dictionary_csv()))
+    EXPECT_TRUE(row[3].find("CPU time") == std::string::npos ||
+                row[5].starts_with("Processor time"))
+        << row[0];
+}
+
+TEST(Dictionary, CallsWhatRivalsSendMoreAReductionFactor) {
+  std::map<std::pair<std::string, std::string>, std::string> aliases;
+  for (const auto& row : rows_of(data_dictionary_csv())) aliases[{row[1], row[0]}] = row[3];
+  EXPECT_EQ((aliases[{"equal_error", "payload_ratio"}]), "reduction factor");
+  EXPECT_EQ((aliases[{"equal_error", "wire_ratio"}]), "reduction factor");
+  EXPECT_EQ((aliases[{"comparisons", "ratio"}]), "reciprocal of the reduction factor");
 }
 
 TEST(Dictionary, GivesTheNamesOfTheLiterature) {
