@@ -86,6 +86,16 @@ class StalledCrowd : public testing::Test {
       if (!is_stalled) crowd_->run_once();
     }
   }
+  /// Nothing is played until `until_s`; then come the ticks that were due since, late, and what they sent is read.
+  void play_late(double until_s) {
+    network_.advance_to(start_ns_ + nanoseconds(until_s));
+    for (; next_tick_ <= std::llround(until_s * rate_hz); ++next_tick_) {
+      const double due_s = static_cast<double>(next_tick_) / rate_hz;
+      serving_.tick(due_s, 1e-9 * static_cast<double>(start_ns_) + due_s);
+    }
+    network_.advance_to(network_.now_ns());
+    crowd_->run_once();
+  }
   /// The instant [s] comes, and what was sent by then reaches who runs.
   void run_until(double instant_s, bool is_stalled = false) {
     network_.advance_to(start_ns_ + nanoseconds(instant_s));
@@ -137,6 +147,32 @@ TEST_F(StalledCrowd, EachTickOfOneReadIsASampleAsOldAsItsOwnTick) {
   EXPECT_NEAR(*measured().update_age.mean_s() * 23 * bots, (0.06 + 0.04 + 0.02) * bots, 1e-9) << "and none of the others waited";
   play(1.98);
   EXPECT_EQ(measured().update_age.count(), 100u * bots) << "clients x ticks";
+}
+
+/// What StallLong expects of sockets, to the last tick: of n that are due while one of both is not run for n - 1 periods, each is as old as it waited, whoever was stopped.
+TEST_F(StalledCrowd, IsInTheAgesAsMuchAsAStalledServerFor60And500Milliseconds) {
+  start({}, 0.0, 4.0);
+  double at_s = 0.38, expected_s = 0.0, longest_s = 0.0;
+  play(at_s);
+  for (const double stall_s : {0.06, 0.5})
+    for (const bool is_of_bots : {true, false}) {
+      SCOPED_TRACE(stall_s);
+      const double begin_s = at_s + 1.0 / rate_hz, end_s = begin_s + stall_s;
+      if (is_of_bots) {
+        play(end_s - 1.0 / rate_hz, true);
+        play(end_s);
+      } else {
+        play_late(end_s);
+      }
+      const double waits = std::round(stall_s * rate_hz);  // of 0, 1, ... periods
+      expected_s += waits * (waits + 1.0) / 2.0 / rate_hz * bots;
+      longest_s = std::max(longest_s, stall_s);
+      EXPECT_EQ(measured().update_age.count(), static_cast<std::uint64_t>(next_tick_) * bots) << "clients x ticks";
+      EXPECT_NEAR(*measured().update_age.mean_s() * static_cast<double>(measured().update_age.count()), expected_s, 1e-9);
+      EXPECT_NEAR(measured().update_age.max_s(), longest_s, 1e-9);
+      at_s = end_s + 0.1;
+      play(at_s);
+    }
 }
 
 /// The last byte of tick 20 comes 12 ms after the others, and until then nothing of it can be applied.
