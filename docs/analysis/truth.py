@@ -10,6 +10,9 @@ LOOK_S = 4e-3  # entries are found between looks so far apart, or an eighth of a
 ROUNDING_S = 1e-6
 
 
+SHAPES = ("square", "disc")  # of what is relevant, as far as it is computed here
+
+
 class Untold(Exception):
     """Why a run cannot be judged from its trace."""
 
@@ -22,8 +25,6 @@ class Trace:
         if lines[-1].get("lines") != len(lines) - 1:
             raise Untold("its trace is cut")
         head = lines[0]
-        if head["shape"] not in ("square", "disc"):
-            raise Untold(f"relevance by {head['shape']} is not computed here")
         self.shape, self.reach, self.has_team, self.always = head["shape"], head["reach"], head["team"], set(head["always"])
         self.begin_s, self.bats = head["begin_s"], head["bats"]
         self.half, self.kind, self.team = {}, {}, {}
@@ -147,19 +148,28 @@ def percentiles(values, name, factor):
     return figures
 
 
-def error_figures(distances, name):
-    figures = percentiles(distances, name, 1e3)
-    for absent in ("_p95", "_p999"):
-        figures.pop(name + absent, None)
-    if distances:
-        figures[name + "_rms"] = 1e3 * math.sqrt(math.fsum(distance * distance for distance in distances) / len(distances))
-    return figures
+class Errors:
+    """Distances [m] between where entities were believed to be and where they were, those put back unheard of apart."""
+
+    def __init__(self):
+        self.distances, self.of_replaced = [], []
+
+    def figures(self, name):
+        figures = percentiles(self.distances, name, 1e3)
+        for absent in ("_p95", "_p999"):
+            figures.pop(name + absent, None)
+        for suffix, distances in (("_rms", self.distances), ("_replaced_rms", self.of_replaced)):
+            if distances:
+                figures[name + suffix] = 1e3 * math.sqrt(math.fsum(distance * distance for distance in distances) / len(distances))
+        if self.distances or self.of_replaced:
+            figures[name + "_replaced_samples"] = len(self.of_replaced)
+        return figures
 
 
 def judged(server, bots, trace_file):
-    """All figures of truth of one run, by the lines of its evidence without their last; throws Untold."""
+    """The figures of truth of one run, by the lines of its evidence without their last, and why they are not all, or nothing; throws Untold."""
     if not trace_file.exists():
-        raise Untold("without a trace (rink compare --trace)")
+        raise Untold("needs the game played again (rink compare --trace)")
     trace = Trace(trace_file)
     head, bodies = server[0], {}
     for line in server:
@@ -169,11 +179,12 @@ def judged(server, bots, trace_file):
         if "changes_us" in line:
             steps = sorted(((1e-6 * instant, bodies[thing], is_in) for instant, thing, is_in in line["changes_us"] if thing in bodies), key=lambda step: step[0])
             players.append(Player(bodies.get(line["bat"]), steps))
+    if trace.shape not in SHAPES:
+        return contact_figures(trace, bots, players), f"relevance by {trace.shape} is not computed here"
     samples = [line for line in bots if "entities_nm" in line]
     looks = planned(head, server, samples, trace.begin_s)
-    filtered, delivered, shown, stamped = Sets(), Sets(), [], []
-    bytes_all, bytes_wasted, missed, contacts, before, looked, cells = 0, 0, 0, iter(trace.contacts), {}, None, {}
-    contact = next(contacts, None)
+    filtered, delivered, shown, stamped = Sets(), Sets(), Errors(), Errors()
+    bytes_all, bytes_wasted, before, looked, cells = 0, 0, {}, None, {}
 
     def passed(own, thing, depth):
         if own not in before or thing not in before:
@@ -204,13 +215,10 @@ def judged(server, bots, trace_file):
                 continue
             believed = entry[4:6] if at_displayed and len(entry) == 6 else entry[2:4]
             place = places[thing]
-            if not is_put_back_unheard(sample, entry, thing):
-                errors.append(math.hypot(believed[0] / 1e9 - place[0], believed[1] / 1e9 - place[1]))
+            of = errors.of_replaced if is_put_back_unheard(sample, entry, thing) else errors.distances
+            of.append(math.hypot(believed[0] / 1e9 - place[0], believed[1] / 1e9 - place[1]))
 
     for instant, kind, what in looks:
-        while contact and contact[0] <= instant:
-            missed += missed_in(contact, players)
-            contact = next(contacts, None)
         if instant != looked:
             looked, places = instant, trace.places[instant]
             cells = trace.binned(places)
@@ -237,34 +245,34 @@ def judged(server, bots, trace_file):
                 add_errors(what, relevant, True, shown)
             else:
                 add_errors(what, relevant, False, stamped)
-    while contact:
-        missed += missed_in(contact, players)
-        contact = next(contacts, None)
-
     figures = filtered.figures("filter")
     if not bots[0]["is_complete"] or not players:
-        return figures
+        return figures, ""
     for player in players:
         player.end()
     figures.update(delivered.figures("delivered"))
     figures.update(percentiles([late for player in players for late in player.late], "late_entry_ms", 1e3))
     for name, errors in (("displayed_error_mm", shown), ("position_error_mm", stamped)):
-        figures.update(error_figures(errors, name))
-    figures["missed_interactions"] = missed
+        figures.update(errors.figures(name))
+    figures.update(contact_figures(trace, bots, players))
     if bytes_all:
         figures["wasted_bytes_fraction"] = bytes_wasted / bytes_all
-    return figures
+    return figures, ""
 
 
-def missed_in(contact, players):
-    """How many of the two whose bats meet did not know of the other."""
-    instant, missed = contact[0], 0
-    for player in players:
-        for own, other in (contact[1:3], contact[2:0:-1]):
-            if player.bat == own:
-                player.told_at_contacts.advance(instant)
-                missed += other not in player.told_at_contacts.since
-    return missed
+def contact_figures(trace, bots, players):
+    """Contacts of watched players' bats, and how many of the players did not know of the other body."""
+    if not bots[0]["is_complete"] or not players:
+        return {}
+    contacts = missed = 0
+    for instant, *pair in trace.contacts:
+        for player in players:
+            for own, other in (pair, pair[::-1]):
+                if player.bat == own:
+                    player.told_at_contacts.advance(instant)
+                    contacts += 1
+                    missed += other not in player.told_at_contacts.since
+    return {"interactions": contacts, "missed_interactions": missed}
 
 
 def planned(head, server, samples, begin_s):
