@@ -86,11 +86,19 @@ void add_gains(Exhibit& exhibit, const Findings& findings) {
   PlotTable table{"gains", "Payload bytes of the baseline, " + baseline + ", divided by those of each cell, paired by seed, beside its errors", cell_columns()};
   table.columns.insert(table.columns.end(), {"gain_of", "times_fewer_bytes", "low_95", "high_95", "bytes_per_client_per_s", "displayed_error_mm_rms", "displayed_error_mm_p99",
                                              "position_error_mm_rms", "delivered_recall"});
-  exhibit.html += "<h3>Gains</h3>\n<p class=\"faint\">How many times fewer payload bytes than the baseline, " + escaped(baseline) +
-                  ": geometric mean over seeds, each against the baseline's run of the same game, with its 95 % interval. Where the filter's and the policy's gains "
-                  "multiply to the gain together, the two do not get in each other's way.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">filter</th>"
-                  "<th class=\"text\">gain of</th><th>payload<br/>kB/s/client</th><th>times fewer bytes<br/>(95 % interval)</th><th>displayed error<br/>RMS mm</th><th>p99 mm</th>"
-                  "<th>at matched time<br/>RMS mm</th><th>delivered<br/>recall</th></tr></thead>\n<tbody>\n";
+  exhibit.html +=
+      "<h3>Reduction factors (gains)</h3>\n<p class=\"faint\">How many times fewer payload bytes "
+      "than the baseline, " +
+      escaped(baseline) +
+      ": geometric mean over seeds, each against the baseline's run of the same game, with its 95 "
+      "% interval. Where the filter's and the policy's gains "
+      "multiply to the gain together, the two do not get in each other's way.</p>\n<div "
+      "class=\"scroll\"><table>\n<thead><tr><th>clients</th><th class=\"text\">filter</th>"
+      "<th class=\"text\">gain of</th><th>payload<br/>kB/s/client</th><th>reduction factor: "
+      "times<br/>fewer bytes (95 % interval)</th><th>dead-reckoning error<br/>now (displayed), RMS "
+      "mm</th><th>p99 mm</th>"
+      "<th>at the time stamp<br/>(matched), RMS "
+      "mm</th><th>delivered<br/>recall</th></tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < gains.size(); ++i) {
     exhibit.html += html_row(gains[i], i > 0 && gains[i].group->cell.clients != gains[i - 1].group->cell.clients);
     table.rows.push_back(csv_row(gains[i]));

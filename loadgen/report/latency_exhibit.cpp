@@ -16,16 +16,25 @@ constexpr int steps_per_nine = 16;
 struct Latency {
   const char* name;
   const char* title;
+  const char* heading;  ///< the field's term, and the column's
   const char* meaning;
   const Histogram CellLatencies::*of;
   Percentiles (*summary)(const RunRecord&);  ///< where only a run's percentiles are kept; else null
 };
 
 constexpr Latency kinds[] = {
-    {"update-age", "Update age", "From the instant at which a tick was due to its batch being applied to the client's mirror; one sample per client and tick.", &CellLatencies::update_age, nullptr},
-    {"key-to-effect", "Key to effect", "From the instant a key was due to the client's own bat answering in its mirror, so a server that stalls cannot hide it.", &CellLatencies::key_to_effect, nullptr},
-    {"late-entry", "Late entry", "From the true instant at which an entity became relevant to the first state of it that the player received.", &CellLatencies::late_entry,
-     [](const RunRecord& run) { return run.truth.late_entry_ms; }},
+    {"update-age", "Update age", "Update latency (update age)",
+     "From the instant at which a tick was due to its batch being applied to the client's mirror; "
+     "one sample per client and tick.",
+     &CellLatencies::update_age, nullptr},
+    {"key-to-effect", "Key to effect", "Input latency (key to effect)",
+     "From the instant a key was due to the client's own bat answering in its mirror, so a server "
+     "that stalls cannot hide it.",
+     &CellLatencies::key_to_effect, nullptr},
+    {"late-entry", "Late entry", "Discovery latency (late entry)",
+     "From the true instant at which an entity became relevant to the first state of it that the "
+     "player received.",
+     &CellLatencies::late_entry, [](const RunRecord& run) { return run.truth.late_entry_ms; }},
 };
 
 bool is_same_cell(Cell a, Cell b) {
@@ -133,7 +142,7 @@ bool add_latency(Exhibit& exhibit, const Findings& findings, const Latency& kind
     plot.x_ticks = nines(range.most_nines);
     figures.add_panel(table.name, to_svg(plot), "");
   }
-  exhibit.html += std::string("<h3>") + kind.title + "</h3>\n<p class=\"faint\">" + kind.meaning +
+  exhibit.html += std::string("<h3>") + kind.heading + "</h3>\n<p class=\"faint\">" + kind.meaning +
                   " Lower is better; a curve that turns up at its right end has a tail that means hide.</p>\n<div class=\"plots small\">\n" + figures.html + "</div>\n" + to_details(table);
   std::move(figures.pictures.begin(), figures.pictures.end(), std::back_inserter(exhibit.pictures));
   exhibit.tables.push_back(std::move(table));

@@ -99,10 +99,21 @@ Exhibit reproduction(const Experiment& experiment, const Provenance& provenance)
 }
 
 constexpr const char* definitions =
-    "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; a "
-    "segment carries up to 1,448 bytes; those without payload, acknowledgements, are counted too). Displayed error: distance between where a client shows an entity at an instant and where it truly is then; at matched "
-    "time: the same at the instant that the client's newest state describes. Latencies count from the instant an action was due. A percentile is shown only if ten or more samples lie beyond it, and "
-    "averaged only if every valid replication has it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by seed.</p>\n";
+    "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload "
+    "of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; "
+    "a segment carries up to 1,448 bytes; those without payload, acknowledgements, are counted "
+    "too). Displayed error: distance between where a client shows an entity at an instant and "
+    "where it truly is then; at matched time: the same at the instant that the client's newest "
+    "state describes. Latencies count from the instant an action was due. A percentile is shown "
+    "only if ten or more samples lie beyond it, and averaged only if every valid replication has "
+    "it. Intervals are Student's t over replications (seeds) at 95 %; ratios are paired by "
+    "seed.</p>\n"
+    "<p class=\"faint\">In the literature's terms: update age is update latency, key to effect "
+    "input latency, late entry discovery latency. Displayed error is dead-reckoning error now, "
+    "the error at matched time is that at the time stamp. A replica is an entity as a client's "
+    "mirror has it; the area fraction is the area of a client's view divided by the field's. How "
+    "many times more another filter or policy sends is the reduction factor. Costs of a tick are "
+    "wall time; CPU time is that of whole processes.</p>\n";
 
 std::string introduction_of(const Findings& findings, const std::vector<EqualError>& comparisons) {
   const std::string headline = comparisons.empty() ? headline_of(findings) : equal_error_headline(comparisons);
@@ -120,16 +131,19 @@ Report report_of(const Experiment& experiment, std::span<const RunRecord> runs, 
   const std::vector<EqualError> comparisons = equal_errors_of(experiment, runs);
   const Findings findings{experiment, rows, latencies, lines_of(rows), relevance_of(rows), discoveries};
   Page page;
-  if (!comparisons.empty()) page.add("equal-error", "Rivals at equal error", equal_error_exhibit(experiment, runs, comparisons));
+  if (!comparisons.empty())
+    page.add("equal-error", "Reduction factor: rivals at equal error",
+             equal_error_exhibit(experiment, runs, comparisons));
   page.add("traffic", "Traffic", traffic_exhibit(findings));
   if (has_several_modes(runs)) page.add("modes", "With and without a server", modes_exhibit(findings));
-  page.add("gains", "Bytes against error", gains_exhibit(findings));
+  page.add("gains", "Bytes against dead-reckoning error", gains_exhibit(findings));
   page.add("relevance", "Precision and recall", relevance_exhibit(findings));
-  if (!discoveries.empty()) page.add("discovery", "Late discoveries and missed contacts", discovery_exhibit(findings));
+  if (!discoveries.empty())
+    page.add("discovery", "Discovery latency and missed contacts", discovery_exhibit(findings));
   page.add("sweeps", "Parameters", sweep_exhibit(findings));
   if (has_expressions_of_one_form(findings)) page.add("stages", "Stages", stages_exhibit(findings));
   page.add("latency", "Latency", latency_exhibit(findings));
-  page.add("cost", "Cost of a tick", cost_exhibit(findings));
+  page.add("cost", "Cost of a tick (wall time)", cost_exhibit(findings));
   page.add("replications", "Replications", replication_exhibit(findings));
   page.add("growth", "Growth", growth_exhibit(findings));
   for (const ReportSection& section : more_sections) page.add(section.id, section.title, section.exhibit);

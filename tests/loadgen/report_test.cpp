@@ -70,6 +70,26 @@ TEST(Report, InvalidRunsAreListedWithTheirReasonAndDisagreementIsShown) {
   EXPECT_THAT(report_of(small_experiment(), runs, provenance).html, HasSubstr("same state hash: <b>yes</b>"));
 }
 
+TEST(Report, HeadsItsFiguresWithTheTermsOfTheField) {
+  const auto runs = some_runs();
+  CellLatencies latencies{runs[0].cell, {}, {}, {}};
+  for (int i = 1; i <= 100; ++i) {
+    latencies.update_age.record(i * 1e-3);
+    latencies.key_to_effect.record(i * 1e-3);
+    latencies.late_entry.record(i * 1e-3);
+  }
+  const std::string html =
+      report_of(small_experiment(), runs, provenance, std::span(&latencies, 1)).html;
+  for (const char* heading :
+       {"<h3>Update latency (update age)</h3>", "<h3>Input latency (key to effect)</h3>",
+        "<h3>Discovery latency (late entry)</h3>", "<h2>Bytes against dead-reckoning error</h2>",
+        "<h3>Reduction factors (gains)</h3>", "<h2>Cost of a tick (wall time)</h2>",
+        "dead-reckoning error<br/>now (displayed)", "at the time stamp<br/>(matched)"})
+    EXPECT_THAT(html, HasSubstr(heading));
+  for (const char* term : {"A replica is", "area fraction is", "CPU time is"})
+    EXPECT_THAT(html, HasSubstr(term));
+}
+
 TEST(Report, WithoutAnyFigureThereIsStillAPage) {
   EXPECT_EQ(unbalanced(report_of(small_experiment(), {}, provenance).html), "");
   std::vector<RunRecord> runs{record_for(small_experiment(), {"client-server", "none", "periodic", 1, 1})};
