@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "game/model/byte_hash.h"
+#include "game/model/report_schema.h"
 
 namespace rink::game {
 namespace {
@@ -49,7 +50,8 @@ std::string summary_of(const Game& game, const physics::SimulatorChoice& engine,
   const physics::Simulator& simulator = game.simulator();
   const physics::Counters counters = simulator.counters();
   const Vector2 momentum = simulator.momentum();
-  Json summary = engine_of(engine);
+  Json summary{{"schema", report_schema}};
+  summary.update(engine_of(engine));
   summary.update({{"time", game.now()},
                   {"events", counters.events()},
                   {"collisions", counters.impacts()},

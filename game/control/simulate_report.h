@@ -17,7 +17,8 @@ void write_events_heading(std::ostream& stream);
 /// One line per event, times with 17 digits; `other` is empty where only one body, or a part of the field, is concerned.
 void write_events(std::ostream& stream, std::span<const physics::Event> events);
 
-/// Counts, energies, momentum, overlap, escapes, score and hash as one JSON object. `wall_s` is how long the run took.
+/// Counts, energies, momentum, overlap, escapes, score and hash as one JSON object with its
+/// `schema`. `wall_s` is how long the run took.
 std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s);
 
 }  // namespace rink::game

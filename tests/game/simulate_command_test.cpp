@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
 #include "game/control/simulate_progress.h"
+#include "game/model/report_schema.h"
 #include "rink_scenes.h"
 #include "tests/command.h"
 #include "tests/places.h"
@@ -45,6 +47,9 @@ TEST_F(SimulateCommand, WritesTheStatesAndTheHashOfTheGameThatItPlays) {
   hash << std::hex << game.hash();
   EXPECT_EQ(content("states.csv"), states.str());
   const std::string summary = content("summary.json");
+  EXPECT_THAT(summary,
+              testing::StartsWith("{\n  \"schema\": " + std::to_string(report_schema) + ",\n"))
+      << "like all JSON reports";
   EXPECT_THAT(summary, HasSubstr(hash.str()));
   for (const char* key : {"events", "collisions", "events_by_kind", "kinetic_energy", "momentum_x", "momentum_y", "work_of_thrust", "dissipated", "max_overlap", "escapes", "hash", "wall_s", "bodies_touched", "predictions",
                           "evaluations"})
