@@ -100,6 +100,19 @@ TEST(RunningOrder, IsAPermutationOfEachReplicationThatFollowsFromItsSeed) {
   EXPECT_EQ(orders.size(), 3u) << "each replication has an order of its own";
 }
 
+// The document had it that whole replications come one after the other, parts or not.
+TEST(RunningOrder, GoesPartByPartAndThereReplicationByReplication) {
+  const Experiment experiment =
+      swept_by(swept + "[[parts]]\nname = 'one'\n[[parts]]\nname = 'two'\n");
+  std::vector<std::pair<std::string, std::uint64_t>> replications;
+  for (const Cell& cell : running_order(experiment))
+    if (replications.empty() || replications.back() != std::pair(cell.part, cell.seed))
+      replications.emplace_back(cell.part, cell.seed);
+  EXPECT_EQ(replications,
+            (std::vector<std::pair<std::string, std::uint64_t>>{
+                {"one", 1}, {"one", 2}, {"one", 3}, {"two", 1}, {"two", 2}, {"two", 3}}));
+}
+
 /// Over many seeds each cell is in each place about as often.
 TEST(RunningOrder, PutsEveryCellInEveryPlace) {
   Experiment experiment;
