@@ -3,6 +3,7 @@
 import argparse
 import csv
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -15,6 +16,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORDS_MAX = 3000
 WIDTH = 118
+POINTS_WANTED = 5  # on either side of an error, as loadgen/equal_error.h has it
+THRESHOLD = 0.005  # of dead reckoning in the table [m]
 BEGIN, END = "<!-- measured by ./rink results -->", "<!-- end of what is measured -->"
 FAILED, TOO_LONG, INTERRUPTED = 3, 4, 130
 
@@ -84,43 +87,130 @@ def three_digits(text):
     return f"{value:.1f}" if value >= 10 else f"{value:.2f}"
 
 
+CROWD = [  # part, filter, policy, extrapolate, in words
+    ("prompt", "none", "periodic", "0", "`periodic (paper)`: shown where they were said to be; in virtual time"),
+    ("sockets", "none", "periodic", "1", "`periodic`: every position at every tick"),
+    ("sockets", "region", "periodic", "1", "`periodic`"),
+    ("sockets", "region", "snapshot", "1", "`snapshot`: differences to what clients have"),
+    ("sockets", "region", "dead-reckoning", "1", "`dead-reckoning`: when clients are 5 mm off (IEEE 1278.1)"),
+    ("sockets", "region", "dead-reckoning-drag", "1", "`dead-reckoning-drag`: clients know the drag"),
+    ("sockets", "region", "on-event", "1", "`on-event`: a trajectory when it changes")]
+
+
 def crowd_table(folder):
     """The table and the sentences at the head of README.md, of the default experiment's report in `folder`."""
-    shown = [("none", "periodic", "`periodic`: every position at every tick"), ("region", "periodic", "`periodic`"), ("region", "snapshot", "`snapshot`: differences to what clients have"),
-             ("region", "dead-reckoning", "`dead-reckoning`: when clients are 5 mm off (IEEE 1278.1)"), ("region", "on-event", "`on-event`: a trajectory when it changes")]
     summary = rows_of(folder / "summary.csv")
     lines = ["| filter | update policy | payload, kB/s | on the wire, kB/s | recall | displayed error, mm |", "|---|---|---|---|---|---|"]
-    for scheme, policy, words in shown:
-        found = [row for row in summary if row["part"] == "sockets" and row["scheme"] == scheme and row["policy"] == policy]
+    for part, scheme, policy, extrapolates, words in CROWD:
+        found = [row for row in summary if (row["part"], row["scheme"], row["policy"], row["extrapolate"]) == (part, scheme, policy, extrapolates)]
         if len(found) != 1:
-            raise Failure(f"{folder.name}/summary.csv has {len(found)} rows of {scheme}, {policy} over sockets")
+            raise Failure(f"{folder.name}/summary.csv has {len(found)} rows of {scheme}, {policy} in the part {part}")
         row = found[0]
         lines.append(f"| `{scheme}` | {words} | {three_digits(float(row['down_bytes_per_client_per_s_mean']) / 1e3)} | {three_digits(float(row['wire_bytes_per_client_per_s_mean']) / 1e3)} | "
-                     f"{float(row['delivered_recall_mean']):.3f} | {three_digits(row['displayed_error_mm_rms_mean'])} |")
-    lines.append("")
+                     f"{four_decimals(row['delivered_recall_mean'])} | {three_digits(row['displayed_error_mm_rms_mean'])} |")
+    return lines + ["", *equal_error_lines(folder)]
+
+
+def four_decimals(text):
+    """Never rounded up to 1."""
+    return f"{math.floor(float(text) * 1e4 + 1e-6) / 1e4:.4f}"
+
+
+def ratio_text(row, figure, end):
+    """A ratio with its interval and marks: < at most, ~ no significant difference."""
+    if not row[figure + "_ratio"]:
+        return "-"
+    text = ("<" if row[end] == "not_left" else "") + three_digits(row[figure + "_ratio"])
+    if row[figure + "_ratio_low"]:
+        text += f" [{three_digits(row[figure + '_ratio_low'])}, {three_digits(row[figure + '_ratio_high'])}]"
+    return text + (" ~" if row[figure + "_difference"] == "no significant difference" else "")
+
+
+def equal_error_lines(folder):
+    """What rivals send at equal error and recall, at each delay and recall compared, and how much of it hangs on the error that is compared."""
+    rows = [row for row in rows_of(folder / "equal_error.csv") if row["policy"] == "on-event"]
+    blocks = {}
+    for row in rows:
+        blocks.setdefault((float(row["delay_ms"]), row["recall_is"]), []).append(row)
     for delay in (0.0, 50.0):
-        rivals = [row for row in rows_of(folder / "equal_error.csv") if float(row["delay_ms"]) == delay and row["recall_is"] == "own" and row["policy"] == "on-event" and row["payload_ratio"]]
-        if not rivals:
+        if not any(row["payload_ratio"] for row in blocks.get((delay, "own"), [])):
             raise Failure(f"{folder.name}/equal_error.csv has no rival at a delay of {delay:g} ms")
-        rivals.sort(key=lambda row: float(row["payload_ratio"]))
-        best = rivals[0]
-
-        def ratio(row, figure):
-            bounds = f" [{three_digits(row[figure + '_low'])}, {three_digits(row[figure + '_high'])}]" if row[figure + "_low"] else ""
-            return three_digits(row[figure]) + bounds
-
-        others = ", ".join(f"`{row['rival']}` {three_digits(row['payload_ratio'])} and {three_digits(row['wire_ratio'])}" for row in rivals[1:])
-        lead = "At *equal displayed error and equal recall*, without delay," if delay == 0.0 else f"With {delay:g} ms of delay"
-        lines += textwrap.wrap(f"{lead} the best rival of `on-event`, `{best['rival']}`, sends {ratio(best, 'payload_ratio')} times its payload and {ratio(best, 'wire_ratio')} times its bytes on the wire; "
-                               f"{others} times.", 160)
-    return lines
+    first = rows[0]
+    lines = textwrap.wrap(f"*At equal displayed error and equal recall*, {first['clients']} clients under `{first['scheme']}` in virtual time: how many times the payload, and the bytes on the wire, of `on-event` at "
+                          f"{float(first['tick_rate_hz']):g} Hz its rivals send, the best first, with 95 % intervals:", 160) + [""]
+    for (delay, recall_is), block in blocks.items():
+        means = "without a margin" if recall_is == "own" else "by margins"
+        lead = "- " + (f"{delay:g} ms of delay" if delay else "no delay") + f", recall {four_decimals(block[0]['recall'])} {means}: "
+        lines += textwrap.wrap(lead + ", ".join(f"`{row['rival']}` {ratio_text(row, 'payload', 'end')} and {ratio_text(row, 'wire', 'wire_end')}" for row in block), 160, subsequent_indent="  ", break_on_hyphens=False)
+    return lines + ["", *textwrap.wrap(caveats(folder, rows, blocks), 160, break_on_hyphens=False)]
 
 
-def provenance_lines(folder):
+def caveats(folder, rows, blocks):
+    """What marks mean, which rivals have few points, and the best rival at the rate and the threshold of the table."""
+    sentences = []
+    if any(row[figure + "_difference"] == "no significant difference" for row in rows for figure in ("payload", "wire")):
+        sentences.append("~: no significant difference.")
+    if any(row[end] == "not_left" for row in rows for end in ("end", "wire_end")):
+        sentences.append("<: at most.")
+    few = sorted({row["rival"] for row in rows if min(int(row["points_below"]), int(row["points_above"])) < POINTS_WANTED})
+    if few:
+        sentences.append("Fewer than five points on a side of the error: " + ", ".join(f"`{rival}`" for rival in few) + ".")
+    best = blocks[0.0, "own"][0]["rival"]
+    rate = float(rows[0]["tick_rate_hz"])
+    without, late = (at_same_rate(folder, best, rate, delay) for delay in (0.0, 50.0))
+    sentences.append(f"These ratios depend on the error compared, that of `on-event` at {rate:g} Hz. At the same {rate:g} Hz `{best}` with its {1e3 * THRESHOLD:g} mm errs {without[0]} times as far as that and sends {without[1]} times the "
+                     f"payload and {without[2]} times the bytes on the wire; with 50 ms of delay {late[0]}, {late[1]} and {late[2]} times.")
+    return " ".join(sentences)
+
+
+def at_same_rate(folder, rival, rate, delay):
+    """Displayed error, payload and wire bytes of `rival` at its own threshold over those of on-event, both without a margin: geometric means over seeds."""
+    figures = {}
+    with open(folder / "runs.jsonl") as lines:
+        for run in map(json.loads, lines):
+            if "policy" in run and run["valid"] and (run["scheme"], run["view_margin"], run["tick_rate_hz"], run["delay_ms"], run["threshold"]) == ("region", 0, rate, delay, THRESHOLD) and run["transport"] == "virtual":
+                figures[run["policy"], run["seed"]] = run["displayed_error_mm"]["rms"], run["down_bytes_per_client_per_s"], run["wire_bytes_per_client_per_s"]
+    pairs = [(figures[rival, seed], own) for (policy, seed), own in figures.items() if policy == "on-event" and (rival, seed) in figures]
+    if not pairs:
+        raise Failure(f"{folder.name}/runs.jsonl has no run of {rival} at {rate:g} Hz and {delay:g} ms of delay")
+    return [f"{math.exp(sum(math.log(theirs[i] / own[i]) for theirs, own in pairs) / len(pairs)):.2f}" for i in range(3)]
+
+
+def saturation_lines(file):
+    """How far what is foretold lies from what held, of a saturation.csv."""
+    rows = rows_of(file)
+    off = [100.0 * (float(row["foretold_clients"]) / float(row["held_clients"]) - 1.0) for row in rows if row["foretold_clients"] and row["held_clients"]]
+    without = sorted({f"`{row['scheme']}`" for row in rows if not row["foretold_clients"]})
+    sentences = []
+    if off:
+        lowest, highest = round(min(off)), round(max(off))
+        sentences.append(f"Foretold is {lowest} to {highest} % above what held." if lowest >= 0 else f"Foretold is {lowest} to {highest} % off what held.")
+    if without:
+        sentences.append(f"Probes of fewer clients were too few to foretell {', '.join(without)}.")
+    return textwrap.wrap(" ".join(sentences), 160)
+
+
+def provenance_lines(folder, *others):
+    """What made the report in `folder`, and with which flags the programs that wrote `others`, files with provenance at their head, were built."""
     facts = json.loads((folder / "provenance.json").read_text())
     for told_elsewhere in ("schema", "command"):
         facts.pop(told_elsewhere, None)
+    for other in others:
+        with open(other) as lines:
+            heads = dict(line[2:].rstrip("\n").split(": ", 1) for line in lines if line.startswith("# ") and ": " in line)
+        facts["accuracy and bench"] = f"{heads['compiler']}, {heads['flags']}"
     return [line for name, fact in facts.items() for line in textwrap.wrap(f"{name}: {fact}", WIDTH, subsequent_indent="  ", break_long_words=False)]
+
+
+def printed(command):
+    """`command` in lines that a shell reads as it was run: broken between words alone, never within quotes."""
+    words, lines = re.findall(r"""(?:'[^']*'|"(?:\\.|[^"\\])*"|\\.|[^\s'"\\])+""", command), ["$"]
+    for word in words:
+        if len(lines[-1]) + 1 + len(word) + len(" \\") > WIDTH and lines[-1].strip() not in ("$", ""):
+            lines[-1] += " \\"
+            lines.append("   ")
+        lines[-1] += " " + word
+    return lines
 
 
 def measure(template, measurements):
@@ -138,7 +228,7 @@ def page_of(template, measurements):
     lines, head, at = [], [], 0
     source = template.splitlines()
     while at < len(source):
-        fence = re.fullmatch(r"```(measured|provenance|crowd)( or \d+)?", source[at])
+        fence = re.fullmatch(r"```(measured|provenance|crowd|saturation)( or \d+)?", source[at])
         if not fence:
             lines.append(source[at])
             at += 1
@@ -149,11 +239,12 @@ def page_of(template, measurements):
             head = [BEGIN, *crowd_table(ROOT / asked), END]
             lines += head
         elif fence[1] == "provenance":
-            lines += ["```", *provenance_lines(ROOT / asked), "```"]
+            lines += ["```", *provenance_lines(*(ROOT / name for name in asked.split())), "```"]
+        elif fence[1] == "saturation":
+            lines += saturation_lines(ROOT / asked)
         else:
             output = measurements.outputs[asked].rstrip().splitlines()
-            said = textwrap.wrap("$ " + asked, WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
-            lines += ["```", *[line + " \\" for line in said[:-1]], said[-1], *[line.rstrip() for line in output], "```"]
+            lines += ["```", *printed(asked), *[line.rstrip() for line in output], "```"]
         at = end + 1
     return "\n".join(lines) + "\n", head
 
