@@ -10,6 +10,7 @@
 #include <semaphore>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "loadgen/parameter.h"
 #include "loadgen/peer_processes.h"
@@ -63,8 +64,9 @@ constexpr std::uint32_t clients_beside_others_max = 300;
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs cells and takes their records in the order in which they were started: those in virtual time beside each other on all processors, for nothing in them depends on
-/// how fast they run; all others alone.
+/// Runs cells and takes their records in the order in which they were started: those in virtual
+/// time beside each other on all processors, for nothing in them depends on how fast they run; all
+/// others alone. What these say is judged as soon as as many wait for it as there are processors.
 class CellQueue {
  public:
   CellQueue(const Experiment& experiment, const RunnerSettings& settings, ResultsDirectory& results, Progress& progress, Outcome& outcome)
@@ -74,12 +76,14 @@ class CellQueue {
   bool run(const Cell& cell, const std::filesystem::path& key_log) {
     const Experiment& part = part_of(experiment_, cell.part);
     const bool is_virtual = part.transport == TransportKind::virtual_time, has_peers = cell.mode == peer_mode;
-    const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : is_virtual ? run_virtual_cell : run_cell;
+    if (!is_virtual && !has_peers) return run_alone(part, cell, key_log);
+    const auto run = has_peers ? (is_virtual ? run_virtual_peers : run_peer_processes) : run_virtual_cell;
     if (!is_virtual || cell.clients > clients_beside_others_max) {
       if (!finish()) return false;
       progress_.starts(cell);
       return take(run(settings_, part, cell, key_log));
     }
+    if (!judge_what_ran()) return false;
     idle_workers_.acquire();  // whichever ends first, be it not the first in line: cells take from 0.05 to 1 s
     while (is_first_done())
       if (!take_first()) return false;
@@ -94,11 +98,7 @@ class CellQueue {
   }
 
   /// Takes the records of what is under way.
-  bool finish() {
-    while (!under_way_.empty())
-      if (!take_first()) return false;
-    return true;
-  }
+  bool finish() { return judge_what_ran() && take_all(); }
 
  private:
   using Record = std::optional<RunRecord>;
@@ -107,6 +107,32 @@ class CellQueue {
     Workers& others;
     ~Worker() { others.release(); }
   };
+
+  bool take_all() {
+    while (!under_way_.empty())
+      if (!take_first()) return false;
+    return true;
+  }
+
+  bool run_alone(const Experiment& part, const Cell& cell, const std::filesystem::path& key_log) {
+    if (!take_all()) return false;
+    progress_.starts(cell);
+    std::optional<ProcessRun> run = run_processes(settings_, part, cell, key_log);
+    const bool was_interrupted = !run;
+    if (run) ran_.push_back(std::move(*run));
+    if ((was_interrupted || ran_.size() >= processors_) && !judge_what_ran()) return false;
+    return !was_interrupted || take({});
+  }
+
+  /// Adds what truth says to the runs of processes that wait for it, beside each other.
+  bool judge_what_ran() {
+    if (ran_.empty()) return true;
+    for (ProcessRun& run : std::exchange(ran_, {}))
+      under_way_.push_back(std::async(std::launch::async, [this, run = std::move(run)] {
+        return Record(judged(settings_, part_of(experiment_, run.record.cell.part), run));
+      }));
+    return take_all();
+  }
 
   bool is_first_done() const { return !under_way_.empty() && under_way_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
 
@@ -134,9 +160,11 @@ class CellQueue {
   ResultsDirectory& results_;
   Progress& progress_;
   Outcome& outcome_;
-  Workers idle_workers_{static_cast<std::ptrdiff_t>(std::max(1u, std::thread::hardware_concurrency()))};
+  const std::size_t processors_ = std::max(1u, std::thread::hardware_concurrency());
+  Workers idle_workers_{static_cast<std::ptrdiff_t>(processors_)};
   Clock::time_point last_ = Clock::now();
   std::deque<std::future<Record>> under_way_;
+  std::vector<ProcessRun> ran_;  ///< as processes, and not yet judged
 };
 
 }  // namespace

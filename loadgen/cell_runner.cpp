@@ -62,7 +62,6 @@ class CellRun {
     record.nodes.busiest_cpu_s = record.server_cpu_s;
     record.nodes.mean_cpu_s = (*record.server_cpu_s + *record.bots_cpu_s) / (1.0 + cell_.clients);
     judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
-    if (settings_.wants_truth) add_truth(record, experiment_, server_evidence, bots_evidence, discovery_file(settings_.directory, cell_));
   }
 
  private:
@@ -186,10 +185,30 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
   return arguments;
 }
 
-std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
-  RunRecord record = record_for(experiment, cell);
+std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment,
+                                  const Cell& cell, const std::filesystem::path& key_log) {
+  std::optional<ProcessRun> run = run_processes(settings, experiment, cell, key_log);
+  if (!run) return std::nullopt;
+  return judged(settings, experiment, std::move(*run));
+}
+
+RunRecord judged(const RunnerSettings& settings, const Experiment& experiment, ProcessRun run) {
+  RunRecord& record = run.record;
+  if (!settings.wants_truth || !run.has_reports) return record;
+  const std::string evidence = (settings.directory / name_of(record.cell)).string();
+  add_truth(record, experiment, evidence + ".server.jsonl", evidence + ".bots.jsonl",
+            discovery_file(settings.directory, record.cell));
+  return record;
+}
+
+std::optional<ProcessRun> run_processes(const RunnerSettings& settings,
+                                        const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log) {
+  ProcessRun run{record_for(experiment, cell)};
+  RunRecord& record = run.record;
   try {
     CellRun(settings, experiment, cell, key_log).run(record);
+    run.has_reports = true;
   } catch (const Failure& failure) {
     record.valid = false;
     record.why_invalid = failure.why;
@@ -199,7 +218,7 @@ std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experime
   } catch (const Interrupted&) {
     return std::nullopt;
   }
-  return record;
+  return run;
 }
 
 }  // namespace rink::loadgen

@@ -41,4 +41,17 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
 /// interrupted. Both processes are gone when this returns.
 std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log);
 
+/// What the processes of a cell said, before the figures of truth.
+struct ProcessRun {
+  RunRecord record;
+  bool has_reports = false;  ///< false: something went wrong, and `record` says what
+};
+/// The two halves of `run_cell`: the processes, beside which nothing else may run, and the figures
+/// of truth, which take one processor a third of a second and may be found beside others. Throws
+/// OutputError if the delays of discovery cannot be written.
+std::optional<ProcessRun> run_processes(const RunnerSettings& settings,
+                                        const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log);
+RunRecord judged(const RunnerSettings& settings, const Experiment& experiment, ProcessRun run);
+
 }  // namespace rink::loadgen
