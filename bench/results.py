@@ -93,7 +93,7 @@ CROWD = [  # part, filter, policy, extrapolate, in words
     ("sockets", "region", "periodic", "1", "`periodic`"),
     ("sockets", "region", "snapshot", "1", "`snapshot`: differences to what clients have"),
     ("sockets", "region", "dead-reckoning", "1", "`dead-reckoning`: when clients are 5 mm off (IEEE 1278.1)"),
-    ("sockets", "region", "dead-reckoning-drag", "1", "`dead-reckoning-drag`: clients know the drag"),
+    ("prompt", "region", "dead-reckoning-drag", "1", "`dead-reckoning-drag`: clients know the drag; in virtual time"),
     ("sockets", "region", "on-event", "1", "`on-event`: a trajectory when it changes")]
 
 

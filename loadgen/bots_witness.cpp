@@ -71,9 +71,10 @@ void BotsWitness::look_into(std::uint32_t place, double simulated_s) {
   std::uint32_t skipped = step > 1 ? game::RandomStream(settings_.seed, next_instant_ * 65'536 + place).below(step) : 0;
   const std::size_t first = evidence_.beliefs.size();
   for (const game::MirroredEntity& entity : mirror.entities()) {
+    // What is left out of a large mirror is not looked up, for bots have little time to sample in.
+    if (entity.in_scope && ++skipped < step) continue;
     const std::uint32_t bytes = bytes_of(received, entity.object.value);
-    if (!entity.in_scope && bytes == 0) continue;
-    if (++skipped < step) continue;
+    if (!entity.in_scope && (bytes == 0 || ++skipped < step)) continue;
     skipped = 0;
     BotsEvidence::Belief belief{.object = entity.object.value, .bytes = bytes, .is_in_scope = entity.in_scope && entity.is_placed};
     if (belief.is_in_scope) belief.matched = entity.position_at(matched_s_[place]), belief.displayed = entity.position_at(simulated_s);
