@@ -222,7 +222,7 @@ TEST(ExperimentFile, TheInstalledExperimentsAreSoundAndTheDefaultIsShort) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) EXPECT_FALSE(cells_of(load_experiment(entry.path(), {})).empty()) << entry.path();
   const auto expected_s = [](const Experiment& experiment) { return expected_cell_s(experiment) * static_cast<double>(cells_of(experiment).size()); };
   const Experiment standard = load_experiment(folder / "default.toml", {}), full = load_experiment(folder / "full.toml", {}), gains = load_experiment(folder / "gains.toml", {});
-  EXPECT_LE(expected_s(standard), 275.0) << "of one after the other; those in virtual time run beside each other";
+  EXPECT_LE(expected_s(standard), 270.0) << "of one after the other; those in virtual time run beside each other";
   std::set<std::uint32_t> clients;
   for (const Cell& cell : cells_of(standard)) clients.insert(cell.clients);
   EXPECT_GE(clients.size(), 3u);
