@@ -190,7 +190,11 @@ TEST(BitStream, ReadsNothingFromFewerBits) {
 /// The code bit by bit, as its definition says: zeros up to a one, as many bits of the head, then `order` bits; nothing if they end before.
 std::optional<std::uint64_t> golomb_bit_by_bit(Bytes bytes, std::size_t at, unsigned order) {
   const auto left = [&] { return 8 * bytes.size() - at; };
-  const auto next = [&] { return static_cast<std::uint64_t>(bytes[at / 8]) >> at++ % 8 & 1u; };
+  const auto next = [&] {
+    const std::uint64_t bit = static_cast<std::uint64_t>(bytes[at / 8]) >> at % 8 & 1u;
+    ++at;
+    return bit;
+  };
   unsigned length = 0;
   for (;; ++length) {
     if (left() == 0) return std::nullopt;
