@@ -2,15 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "game/control/replay.h"
 #include "game/net/address.h"
 #include "game/net/fom_file.h"
+#include "game/net/serve_status.h"
 #include "game/replication/names.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/process.h"
@@ -109,6 +112,21 @@ TEST(ServeCommand, InterruptedWhileItWaitsForTurnsItEndsInOrder) {
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(report)).at("why_invalid"), "interrupted");
 }
 
+/// Waits until so many players of the server there have each ended twenty turns.
+bool takes_turns(const std::string& place, std::uint32_t players) {
+  const auto [address, port] = address_and_port("place", place);
+  const auto now_s = [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+  for (const double limit = now_s() + 15.0; now_s() < limit; std::this_thread::sleep_for(20ms)) {
+    const StatusAnswer answer = ask_status({.address = address, .port = port}, now_s);
+    if (!answer.reports || answer.reports->empty()) continue;
+    const auto playing = std::ranges::count_if(answer.reports->front().federates, [](const rti::FederateReport& federate) {
+      return federate.name != "server" && federate.counts.interactions_sent >= 20;
+    });
+    if (static_cast<std::uint32_t>(playing) == players) return true;
+  }
+  return false;
+}
+
 TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlayerHoldsNobodyBack) {
   std::vector<std::string> hashes;
   for (const bool is_managed : {false, true, true}) {
@@ -128,7 +146,10 @@ TEST(ServeCommand, UnderTimeManagementTheSameKeysGiveTheSameStateAndAKilledPlaye
     Process second(test::binary_folder() + "/bin/rink-bots", others, {});
     const auto limit = std::chrono::steady_clock::now() + 20s;
     for (bool is_killed = false; !server.ending() && std::chrono::steady_clock::now() < limit; is_killed = true) {
-      if (loses_one && !is_killed) std::this_thread::sleep_for(300ms), second.stop(0s);
+      if (loses_one && !is_killed) {
+        ASSERT_TRUE(takes_turns(*place, 6)) << server.last_words();
+        second.stop(0s);
+      }
       for (Process* each : {&server, &first, &second}) each->attend(10ms);
     }
     ASSERT_TRUE(server.ending()) << server.last_words();
