@@ -12,8 +12,8 @@
 #include "game/physics/collision/accelerated_tests.h"
 #include "game/physics/collision/dynamic_tests.h"
 #include "game/physics/collision/static_tests.h"
-#include "tests/physics/collision_library_cases.h"
-#include "tests/physics/collision_library_reference.h"
+#include "tests/physics/collision_library/collision_library_cases.h"
+#include "tests/physics/collision_library/collision_library_reference.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/im_crowd.h"
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "bench/peers/region_peers.h"
 #include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
-#include "im/overlap_filter.h"
+#include "im/schemes/overlap_filter.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 
 #include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
-#include "im/overlap_filter.h"
+#include "im/schemes/overlap_filter.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "game/physics/world.h"
-#include "tests/physics/collision_library_cases.h"
+#include "tests/physics/collision_library/collision_library_cases.h"
 
 namespace {
 

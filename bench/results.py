@@ -16,7 +16,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORDS_MAX = 3000
 WIDTH = 118
-POINTS_WANTED = 5  # on either side of an error, as loadgen/equal_error.h has it
+POINTS_WANTED = 5  # on either side of an error, as loadgen/measure/equal_error.h has it
 THRESHOLD = 0.005  # of dead reckoning in the table [m]
 BEGIN, END = "<!-- measured by ./rink results -->", "<!-- end of what is measured -->"
 FAILED, TOO_LONG, INTERRUPTED = 3, 4, 130

@@ -16,8 +16,8 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
-#include "rti/transport/shared_memory.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/shared_memory/shared_memory.h"
+#include "rti/transport/tcp/tcp.h"
 
 namespace {
 

@@ -18,17 +18,26 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*undefined")
   set(RINK_FEWER_CHECKS -fno-sanitize=null,alignment,vptr)
 endif()
 
-# rink_module(NAME FOLDERS folders... DEPENDS targets...): a static library of the sources in the calling folder and in these folders below it. Files called
-# *_main.cpp are commands, not part of it.
-function(rink_module name)
-  cmake_parse_arguments(module "" "" "FOLDERS;DEPENDS;PRIVATE" ${ARGN})
-  list(TRANSFORM module_FOLDERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE folders)
-  set(patterns)
-  foreach(folder ${CMAKE_CURRENT_SOURCE_DIR} ${folders})
-    list(APPEND patterns ${folder}/*.cpp ${folder}/*.h)
-  endforeach()
-  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+# rink_sources(VARIABLE PATTERNS...): what matches in the calling folder and below it, without folders that have a CMakeLists.txt of their own and without
+# commands, *_main.cpp.
+function(rink_sources variable)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE patterns)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
   list(FILTER sources EXCLUDE REGEX "_main\\.cpp$")
+  file(GLOB_RECURSE others CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/CMakeLists.txt)
+  list(REMOVE_ITEM others ${CMAKE_CURRENT_SOURCE_DIR}/CMakeLists.txt)
+  foreach(other IN LISTS others)
+    get_filename_component(folder ${other} DIRECTORY)
+    string(REGEX REPLACE "([][+.*()^$?|\\])" "\\\\\\1" folder ${folder})
+    list(FILTER sources EXCLUDE REGEX "^${folder}/")
+  endforeach()
+  set(${variable} ${sources} PARENT_SCOPE)
+endfunction()
+
+# rink_module(NAME DEPENDS targets... PRIVATE targets...): a static library of the sources in the calling folder and below it.
+function(rink_module name)
+  cmake_parse_arguments(module "" "" "DEPENDS;PRIVATE" ${ARGN})
+  rink_sources(sources *.cpp *.h)
   if(NOT sources)
     file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_empty.cpp "")
     set(sources ${CMAKE_CURRENT_BINARY_DIR}/${name}_empty.cpp)
@@ -41,13 +50,11 @@ function(rink_module name)
   target_link_libraries(rink_${name} PUBLIC ${module_DEPENDS} PRIVATE $<BUILD_INTERFACE:rink_options> ${module_PRIVATE})
 endfunction()
 
-# rink_command(NAME DEPENDS targets...): the executable rink-NAME from NAME_main.cpp in the calling folder.
-function(rink_command name)
+# rink_command(PATH DEPENDS targets...): the executable rink-NAME from PATH_main.cpp, PATH ending in NAME.
+function(rink_command path)
   cmake_parse_arguments(command "" "" "DEPENDS" ${ARGN})
-  if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}_main.cpp)
-    return()
-  endif()
-  add_executable(rink-${name} ${name}_main.cpp)
+  get_filename_component(name ${path} NAME)
+  add_executable(rink-${name} ${path}_main.cpp)
   # What a command does is in its modules. Its flags alone take g++ a minute under a sanitizer with optimisation, half of that without.
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(rink-${name} PRIVATE -O0 ${RINK_FEWER_CHECKS})
@@ -69,11 +76,11 @@ function(rink_share kind path)
   endif()
 endfunction()
 
-# rink_tests(NAME [OPTIMISED] DEPENDS targets...): one GoogleTest executable from the calling folder. Suites whose name holds Long are labelled long, those whose
+# rink_tests(NAME [OPTIMISED] DEPENDS targets...): one GoogleTest executable from the calling folder and below it. Suites whose name holds Long are labelled long, those whose
 # name holds Threaded threaded (the thread sanitizer runs these), the rest quick. Whatever is not long is quick enough for every run.
 function(rink_tests name)
   cmake_parse_arguments(tests "OPTIMISED" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  rink_sources(sources *.cpp)
   if(NOT sources)
     return()
   endif()

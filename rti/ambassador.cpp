@@ -1,5 +1,5 @@
 // The services of the federate's side: each becomes a message at the end of `outgoing`.
-#include "rti/ambassador_say.h"
+#include "rti/federate/ambassador_say.h"
 
 #include <algorithm>
 #include <cassert>

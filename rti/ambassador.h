@@ -8,7 +8,7 @@
 
 #include "im/filter.h"
 #include "rti/advisory_switches.h"
-#include "rti/ambassador_parts.h"
+#include "rti/federate/ambassador_parts.h"
 
 namespace rink::rti {
 

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "rti/federation_management_objects.h"
-#include "rti/federation_time.h"
+#include "rti/federation/federation_management_objects.h"
+#include "rti/federation/federation_time.h"
 
 namespace rink::rti {
 

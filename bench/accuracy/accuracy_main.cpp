@@ -16,7 +16,7 @@
 #include "bench/accuracy/tables.h"
 #include "bench/peers/peers.h"
 #include "game/version/version.h"
-#include "loadgen/provenance.h"
+#include "loadgen/report/provenance.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "bench/accuracy/tables.h"
-#include "loadgen/report/line_plot.h"
+#include "loadgen/report/plots/line_plot.h"
 #include "loadgen/report/page.h"
-#include "loadgen/report/text.h"
+#include "loadgen/report/plots/text.h"
 
 namespace rink::accuracy {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/accuracy/diagram.h"
 #include "bench/accuracy/stability.h"
-#include "loadgen/provenance.h"
+#include "loadgen/report/provenance.h"
 #include "loadgen/report/report.h"
 
 namespace rink::accuracy {

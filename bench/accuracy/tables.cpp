@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "bench/peers/peers.h"
-#include "loadgen/report/text.h"
+#include "loadgen/report/plots/text.h"
 
 namespace rink::accuracy {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "game/physics/body.h"
-#include "game/physics/exponential.h"
+#include "game/physics/flight/exponential.h"
 
 namespace rink::game {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 
 namespace rink::peer {
 

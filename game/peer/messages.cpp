@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "game/peer/mirror.h"
-#include "game/peer/scoring.h"
-#include "game/peer/session.h"
+#include "game/peer/session/mirror.h"
+#include "game/peer/session/scoring.h"
+#include "game/peer/session/session.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::peer {

@@ -9,7 +9,7 @@
 
 #include "game/peer/division.h"
 #include "game/peer/messages.h"
-#include "game/peer/mirror.h"
+#include "game/peer/session/mirror.h"
 #include "game/peer/validation.h"
 #include "game/physics/portion.h"
 

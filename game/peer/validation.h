@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "game/peer/messages.h"
-#include "game/peer/mirror.h"
-#include "game/peer/scoring.h"
+#include "game/peer/session/mirror.h"
+#include "game/peer/session/scoring.h"
 
 namespace rink::peer {
 

@@ -1,9 +1,9 @@
 // All that the future of a body depends on, as a value that one world hands to another.
 #pragma once
 
-#include "game/physics/motion.h"
-#include "game/physics/partner.h"
-#include "game/physics/straight_flight.h"
+#include "game/physics/flight/motion.h"
+#include "game/physics/engine/partner.h"
+#include "game/physics/flight/straight_flight.h"
 
 namespace rink::physics {
 

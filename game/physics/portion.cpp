@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "game/physics/engine.h"
+#include "game/physics/engine/engine.h"
 
 namespace rink::physics {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/physics/journal.h"
+#include "game/physics/engine/journal.h"
 #include "game/physics/world.h"
 
 namespace rink::physics {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "game/physics/engine.h"
+#include "game/physics/engine/engine.h"
 
 namespace rink::physics {
 

@@ -9,7 +9,7 @@
 
 #include "game/physics/body.h"
 #include "game/physics/counters.h"
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 
 namespace rink::physics {
 

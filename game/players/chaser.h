@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 #include "game/players/steering.h"
 
 namespace rink::game {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "game/model/random_stream.h"
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 #include "game/players/player.h"
 
 namespace rink::game {

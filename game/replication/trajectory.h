@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 #include "game/physics/world.h"
 
 namespace rink::game {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "game/match/replay_match.h"
-#include "game/view/glfw.h"
-#include "game/view/zones_overlay.h"
+#include "game/view/window/glfw.h"
+#include "game/view/overlays/zones_overlay.h"
 
 namespace rink::view {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "game/view/event_queue.h"
-#include "game/view/interest_overlay.h"
+#include "game/view/window/event_queue.h"
+#include "game/view/overlays/interest_overlay.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/menu.h"

@@ -6,7 +6,7 @@
 
 #include "game/view/render/picture.h"
 #include "game/view/render/renderer.h"
-#include "game/view/window_event.h"
+#include "game/view/window/window_event.h"
 
 struct ImFont;
 struct ImGuiContext;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "game/view/glfw.h"
+#include "game/view/window/glfw.h"
 #include "game/view/picture_of.h"
 
 namespace rink::view {

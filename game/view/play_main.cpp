@@ -17,7 +17,7 @@
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
-#include "game/net/joined_match.h"
+#include "game/net/client/joined_match.h"
 #include "game/net/peer/playing_peer.h"
 #include "game/version/version.h"
 #include "game/view/application.h"
@@ -27,7 +27,7 @@
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
 #include "game/view/sounds.h"
-#include "game/view/window.h"
+#include "game/view/window/window.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "game/control/seed_flag.h"
 #include "game/net/flags.h"
 #include "game/net/peer/playing_peer.h"
-#include "game/net/peer/viewing_options.h"
+#include "game/net/peer/interest/viewing_options.h"
 #include "game/view/menu.h"
 #include "game/view/picture_of.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "game/view/window_event.h"
+#include "game/view/window/window_event.h"
 
 namespace rink::view {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "game/view/glfw.h"
+#include "game/view/window/glfw.h"
 
 namespace rink::view {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "im/matching/projection.h"
-#include "im/matching/scan.h"
-#include "im/region_history.h"
+#include "im/matching/index/scan.h"
+#include "im/matching/region_history.h"
 
 namespace rink::im {
 

@@ -1,7 +1,7 @@
 // Bins both sides and joins them.
 #include "im/matching/batch_matcher.h"
 
-#include "im/region_history.h"
+#include "im/matching/region_history.h"
 
 namespace rink::im {
 namespace {

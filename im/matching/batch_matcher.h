@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "im/filter.h"
-#include "im/matching/box_index.h"
+#include "im/matching/index/box_index.h"
 #include "im/matching/join.h"
 #include "im/matching/rejection.h"
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <span>
 
-#include "im/matching/box_index.h"
+#include "im/matching/index/box_index.h"
 #include "im/matching/change_list.h"
 #include "im/matching/disc.h"
 #include "im/matching/join.h"
-#include "im/matching/line_index.h"
-#include "im/matching/live_index.h"
-#include "im/region_history.h"
+#include "im/matching/index/line_index.h"
+#include "im/matching/index/live_index.h"
+#include "im/matching/region_history.h"
 
 namespace rink::im {
 

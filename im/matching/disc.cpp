@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "im/region_history.h"
+#include "im/matching/region_history.h"
 
 namespace rink::im {
 namespace {

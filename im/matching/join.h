@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "im/matching/box_index.h"
-#include "im/matching/live_index.h"
+#include "im/matching/index/box_index.h"
+#include "im/matching/index/live_index.h"
 #include "im/matching/probe_list.h"
 #include "im/worker.h"
 

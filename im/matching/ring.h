@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "im/matching/cell_level.h"
+#include "im/matching/index/cell_level.h"
 
 namespace rink::im {
 

@@ -1,7 +1,7 @@
 // The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody flaps at an edge.
 #include <algorithm>
 
-#include "im/cells.h"
+#include "im/schemes/cells.h"
 #include "im/composition/reviewed_parts.h"
 #include "im/stages/stages.h"
 

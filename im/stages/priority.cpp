@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "im/composition/parts.h"
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {

@@ -22,7 +22,7 @@ std::unique_ptr<Filter> make_tiers(std::unique_ptr<Filter> inner, std::vector<st
 /// the disc of the subscription.
 std::unique_ptr<Filter> make_swept(std::unique_ptr<Filter> inner, double horizon, double drag, bool is_disc);
 
-/// Orders what is relevant by what it is due (im/priority_order.h), for who sends at most `budget` bytes to a subscriber between two matches; 0: any.
+/// Orders what is relevant by what it is due (im/stages/priority_order.h), for who sends at most `budget` bytes to a subscriber between two matches; 0: any.
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget);
 
 }  // namespace rink::im

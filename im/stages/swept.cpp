@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "im/candidate_pairs.h"
+#include "im/schemes/candidate_pairs.h"
 #include "im/composition/parts.h"
 #include "im/stages/flight.h"
 #include "im/stages/stages.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "im/predicate_filter.h"
+#include "im/schemes/predicate_filter.h"
 #include "im/view/sector.h"
 
 namespace rink::im {

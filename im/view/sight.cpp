@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "im/predicate_filter.h"
+#include "im/schemes/predicate_filter.h"
 #include "im/view/shadow.h"
 
 namespace rink::im {

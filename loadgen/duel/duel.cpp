@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loadgen/virtual_parts.h"
+#include "loadgen/run/virtual_parts.h"
 
 namespace rink::loadgen {
 

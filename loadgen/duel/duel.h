@@ -9,10 +9,10 @@
 #include <string>
 
 #include "game/model/random_stream.h"
-#include "game/net/network_match.h"
-#include "game/net/serving.h"
+#include "game/net/client/network_match.h"
+#include "game/net/server/serving.h"
 #include "loadgen/duel/match_bot.h"
-#include "rti/transport/virtual_network.h"
+#include "rti/transport/modelled/virtual_network.h"
 
 namespace rink::loadgen {
 

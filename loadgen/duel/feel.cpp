@@ -30,9 +30,9 @@ ShownError error_of(std::vector<double>& errors) {
   return error;
 }
 
-class Comparison {
+class TruthComparison {
  public:
-  explicit Comparison(Duel& duel) : duel_(duel) {}
+  explicit TruthComparison(Duel& duel) : duel_(duel) {}
 
   void note(std::size_t k) {
     game::NetworkMatch& match = duel_.client(k);
@@ -96,7 +96,7 @@ void add_corrections(Duel& duel, Feel& feel) {
 
 Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& scene_text, const DuelSettings& settings, double seconds) {
   Duel duel(fom, scene, scene_text, settings);
-  Comparison comparison(duel);
+  TruthComparison comparison(duel);
   duel.watch = [&](std::size_t k) { comparison.note(k); };
   for (std::size_t k = 0; k < 2; ++k) duel.connect(k);
   duel.run_until([&] { return duel.server().match()->phase == game::MatchPhase::playing; }, 30.0);

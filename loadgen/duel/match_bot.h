@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "game/net/network_match.h"
+#include "game/net/client/network_match.h"
 #include "game/players/player.h"
 
 namespace rink::loadgen {

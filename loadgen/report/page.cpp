@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
-#include "loadgen/report/style.h"
-#include "loadgen/report/text.h"
+#include "loadgen/report/plots/style.h"
+#include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
 

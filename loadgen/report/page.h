@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/exhibit.h"
+#include "loadgen/report/exhibits/exhibit.h"
 #include "loadgen/report/report.h"
 
 namespace rink::loadgen {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "loadgen/report/text.h"
+#include "loadgen/report/plots/text.h"
 
 namespace rink::loadgen {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/provenance.h"
+#include "loadgen/report/provenance.h"
 
 namespace rink::loadgen {
 

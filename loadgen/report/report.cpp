@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <set>
 
-#include "loadgen/modes_table.h"
-#include "loadgen/report/gains.h"
+#include "loadgen/measure/modes_table.h"
+#include "loadgen/report/exhibits/gains.h"
 #include "loadgen/report/page.h"
-#include "loadgen/report/text.h"
-#include "loadgen/summary.h"
+#include "loadgen/report/plots/text.h"
+#include "loadgen/measure/summary.h"
 
 namespace rink::loadgen {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "loadgen/report/exhibit.h"
+#include "loadgen/report/exhibits/exhibit.h"
 
 namespace rink::loadgen {
 

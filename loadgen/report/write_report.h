@@ -2,7 +2,7 @@
 #pragma once
 
 #include "loadgen/report/report.h"
-#include "loadgen/results.h"
+#include "loadgen/measure/results.h"
 
 namespace rink::loadgen {
 

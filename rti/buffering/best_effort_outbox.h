@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rti/buffering/datagram_batch.h"
-#include "rti/datagram_way.h"
+#include "rti/federation/datagram_way.h"
 #include "rti/objects/object_map.h"
 
 namespace rink::rti {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "rti/wire/message.h"
 
 namespace rink::rti {

@@ -1,7 +1,7 @@
 // Tiers and budgets: who of those in scope is not told of yet.
 #include <algorithm>
 
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "rti/distribution/interest.h"
 
 namespace rink::rti {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 
 namespace rink::rti {
 

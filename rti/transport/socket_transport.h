@@ -7,9 +7,9 @@
 #include <string_view>
 #include <variant>
 
-#include "rti/transport/shared_memory.h"
-#include "rti/transport/tcp.h"
-#include "rti/transport/udp.h"
+#include "rti/transport/shared_memory/shared_memory.h"
+#include "rti/transport/tcp/tcp.h"
+#include "rti/transport/udp/udp.h"
 
 namespace rink::rti {
 

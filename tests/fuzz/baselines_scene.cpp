@@ -9,7 +9,7 @@
 #include "rti/wire/federation_messages.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/service_scene.h"
-#include "tests/rti/fjord.h"
+#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/rig.h"
 
 namespace rink::fuzz {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "im/checked_filter.h"
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "tests/fuzz/harness.h"
 
 namespace rink::fuzz {

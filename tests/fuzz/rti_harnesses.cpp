@@ -13,7 +13,7 @@
 #include "tests/fuzz/federation_scene.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/service_scene.h"
-#include "tests/rti/fjord.h"
+#include "tests/rti/scenes/fjord.h"
 #include "tests/rti/rig.h"
 
 namespace rink::fuzz {

@@ -11,7 +11,7 @@
 #include "game/control/game_state.h"
 #include "game/physics/snapshot_stream.h"
 #include "game/players/random_plan.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::game {

@@ -10,7 +10,7 @@
 #include "game/control/key_log.h"
 #include "game/control/replay.h"
 #include "game/model/random_stream.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "game/model/random_stream.h"
 #include "game/model/time_grid.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "game/model/random_stream.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

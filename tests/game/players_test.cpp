@@ -12,7 +12,7 @@
 #include "game/players/hotspot.h"
 #include "game/players/steering.h"
 #include "game/players/waypoint.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "game/control/game.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "game/control/game.h"
 #include "game/control/game_hash.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

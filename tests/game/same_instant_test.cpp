@@ -9,7 +9,7 @@
 #include "game/control/game.h"
 #include "game/control/playing.h"
 #include "game/model/random_stream.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 
 namespace rink::game {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "game/control/game.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 #include "tests/words.h"
 
 namespace rink::game {

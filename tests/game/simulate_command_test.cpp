@@ -11,7 +11,7 @@
 #include "game/control/key_log.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/report_schema.h"
-#include "rink_scenes.h"
+#include "tests/game/rink_scenes.h"
 #include "tests/command.h"
 #include "tests/places.h"
 

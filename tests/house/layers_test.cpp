@@ -21,32 +21,59 @@ struct Layer {
 /// The most specific folder stands before those that contain it. bench and tests may include anything.
 const std::vector<Layer> layers{
     {"im/matching", {"im/matching", "im"}},
-    {"im/view", {"im/view", "im", "im/matching"}},
+    {"im/view", {"im/view", "im/schemes", "im", "im/matching"}},
     {"im/composition", {"im/composition", "im/stages", "im", "im/matching"}},
-    {"im/stages", {"im/stages", "im/composition", "im", "im/matching"}},
+    {"im/stages", {"im/stages", "im/schemes", "im/composition", "im", "im/matching"}},
+    {"im/schemes", {"im/schemes", "im", "im/matching"}},
     {"im", {"im", "im/matching", "im/composition"}},
     {"rti/transport/mpi", {"rti/transport/mpi", "rti/transport"}},
-    {"rti/transport", {"rti/transport", "rti", "im"}},
-    {"rti", {"rti", "im"}},
-    {"game/physics/collision", {"game/physics/collision", "game/physics"}},
+    {"rti/transport/modelled", {"rti/transport/modelled", "rti/transport"}},
+    {"rti/transport", {"rti/transport", "rti/transport/modelled", "rti", "im"}},
+    {"rti", {"rti", "im", "im/stages"}},
+    {"game/physics/events", {"game/physics/events", "game/physics"}},
+    {"game/physics/flight", {"game/physics/flight", "game/physics"}},
+    {"game/physics/engine", {"game/physics/engine", "game/physics/events", "game/physics/flight", "game/physics"}},
+    {"game/physics/collision", {"game/physics/collision", "game/physics/flight", "game/physics"}},
     {"game/physics/paper", {"game/physics/paper", "game/physics/collision", "game/physics"}},
-    {"game/physics", {"game/physics", "game/physics/paper"}},
+    {"game/physics", {"game/physics", "game/physics/engine", "game/physics/flight", "game/physics/paper"}},
     {"game/version", {"game/version"}},
-    {"game/model", {"game/model", "game/physics"}},
-    {"game/peer", {"game/peer", "game/physics"}},
+    {"game/model", {"game/model", "game/physics", "game/physics/flight"}},
+    {"game/peer", {"game/peer", "game/physics", "game/physics/flight"}},
     {"game/control", {"game/control", "game/players", "game/model", "game/physics"}},
     {"game/match", {"game/match", "game/control", "game/players", "game/model", "game/physics"}},
-    {"game/players", {"game/players", "game/model", "game/physics"}},
-    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im"}},
-    {"game/net/peer", {"game/net/peer", "game/net", "game/match", "game/peer", "game/replication", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi", "im"}},
+    {"game/players", {"game/players", "game/model", "game/physics", "game/physics/flight"}},
+    {"game/replication", {"game/replication", "game/control", "game/model", "game/physics", "rti", "im", "game/physics/flight"}},
+    {"game/net/peer", {"game/net/peer", "game/net", "game/match", "game/peer", "game/replication", "game/control", "game/players", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/mpi", "im", "game/physics/flight"}},
+    {"game/net/server", {"game/net/server", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/net/client", {"game/net/client", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/net", {"game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
     {"game/view/render", {"game/view/render"}},
-    {"game/view", {"game/view", "game/view/render", "game/match", "game/net", "game/net/peer", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
-    {"loadgen/duel", {"loadgen/duel", "loadgen", "game/players", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
-    {"loadgen/truth", {"loadgen/truth", "loadgen", "game/net", "game/control", "game/model", "game/physics"}},
-    {"loadgen/report", {"loadgen/report", "loadgen"}},
-    {"loadgen", {"loadgen", "game/version", "loadgen/truth", "loadgen/report", "loadgen/duel", "game/players", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
+    {"game/view", {"game/view", "game/view/render", "game/match", "game/net/client", "game/net", "game/net/peer", "game/replication", "game/control", "game/model", "game/physics", "rti"}},
+    {"loadgen/experiment", {"loadgen/experiment", "game/players", "game/net", "game/net/peer", "game/replication", "game/model", "rti", "rti/transport/modelled"}},
+    {"loadgen/measure", {"loadgen/measure", "loadgen/experiment", "game/net/server", "game/net", "game/control", "game/model", "game/physics", "rti", "game/physics/flight"}},
+    {"loadgen/run", {"loadgen/run", "loadgen/measure", "loadgen/experiment", "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/modelled"}},
+    {"loadgen/duel", {"loadgen/duel", "loadgen/run", "game/players", "game/net/server", "game/net/client", "game/net", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport", "rti/transport/modelled"}},
+    {"loadgen/report", {"loadgen/report", "loadgen/run", "loadgen/measure", "loadgen/experiment", "game/version", "game/model"}},
+    {"loadgen/apps", {"loadgen/experiment", "loadgen/run", "loadgen/measure", "loadgen/report", "loadgen/duel", "game/players", "game/net/server", "game/net/client", "game/net", "game/net/peer", "game/peer", "game/match", "game/replication", "game/control", "game/model", "game/physics", "rti", "rti/transport"}},
 };
+
+/// Folders that a layer is divided into for whoever looks for a file; those of the RTI but for its transports are all of this kind.
+const Names divisions{"im/matching/index",
+                      "rti/transport/tcp",
+                      "rti/transport/udp",
+                      "rti/transport/shared_memory",
+                      "game/peer/session",
+                      "game/net/peer/meeting",
+                      "game/net/peer/interest",
+                      "game/view/overlays",
+                      "game/view/window",
+                      "loadgen/run/bots",
+                      "loadgen/run/peers",
+                      "loadgen/run/saturation",
+                      "loadgen/measure/statistics",
+                      "loadgen/measure/truth",
+                      "loadgen/report/exhibits",
+                      "loadgen/report/plots"};
 
 const Names network_headers{"asio", "sys/socket.h", "netinet/", "arpa/inet.h", "netdb.h", "sys/epoll.h", "mpi.h"};
 const Names clock_headers{"chrono", "ctime", "time.h"};
@@ -92,10 +119,11 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
-/// The folder that layers know `path` by: the RTI's parts are folders of one layer, but for its transports.
+/// The folder that layers know `path` by.
 std::string part_of(const std::string& path) {
   const std::string folder = folder_of(path);
-  return folder.starts_with("rti/") && !folder.starts_with("rti/transport") ? "rti" : folder;
+  if (folder.starts_with("rti/") && !folder.starts_with("rti/transport")) return "rti";
+  return std::ranges::find(divisions, folder) == divisions.end() ? folder : folder_of(folder);
 }
 
 const Layer* layer_of(const SourceFile& source) {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "im/matching/cell_level.h"
+#include "im/matching/index/cell_level.h"
 
 namespace rink::im {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "im/matching/advance.h"
-#include "im/overlap_filter.h"
+#include "im/schemes/overlap_filter.h"
 #include "tests/im/layouts.h"
 #include "tests/im/recount.h"
 

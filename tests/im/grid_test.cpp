@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "im/cells.h"
+#include "im/schemes/cells.h"
 #include "im/filter.h"
 
 namespace rink::im {

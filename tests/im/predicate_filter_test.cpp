@@ -1,5 +1,5 @@
 // The short path to a scheme: predicates of a few lines, each a whole filter that agrees with brute force and with closed forms.
-#include "im/predicate_filter.h"
+#include "im/schemes/predicate_filter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "tests/im/recount.h"
 
 namespace rink::im {

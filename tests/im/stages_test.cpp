@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "im/priority_order.h"
+#include "im/stages/priority_order.h"
 #include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 

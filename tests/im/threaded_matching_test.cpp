@@ -13,7 +13,7 @@
 
 #include "rti/second_core.h"
 #include "im/matching/batch_matcher.h"
-#include "im/overlap_filter.h"
+#include "im/schemes/overlap_filter.h"
 #include "tests/im/cases.h"
 #include "tests/im/long_play.h"
 

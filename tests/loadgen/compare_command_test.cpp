@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "canned_reports.h"
+#include "tests/loadgen/report/canned_reports.h"
 #include "im/filter.h"
 #include "im/usage.h"
-#include "loadgen/process.h"
+#include "loadgen/run/process.h"
 #include "tests/command.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "loadgen/experiment.h"
+#include "loadgen/experiment/experiment.h"
 
 namespace rink::loadgen {
 

@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include "game/net/network_match.h"
+#include "game/net/client/network_match.h"
 #include "rti/wire/message.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/match/match_scene.h"
 
 namespace rink::game {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "game/control/key_log.h"
-#include "loadgen/process.h"
+#include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "loadgen/process.h"
+#include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

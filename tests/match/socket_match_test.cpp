@@ -10,10 +10,10 @@
 
 #include "game/control/key_log_packed.h"
 #include "game/control/replay.h"
-#include "game/net/network_match.h"
-#include "game/net/serving.h"
+#include "game/net/client/network_match.h"
+#include "game/net/server/serving.h"
 #include "loadgen/duel/match_bot.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/match/match_scene.h"
 
 namespace rink::game {

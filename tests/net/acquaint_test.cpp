@@ -1,5 +1,5 @@
 // Headings and flights that the game's server hands to the RTI's filter, and rates by tier, against the game itself.
-#include "game/net/acquaint.h"
+#include "game/net/server/acquaint.h"
 
 #include <gtest/gtest.h>
 

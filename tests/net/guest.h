@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "game/net/address.h"
-#include "game/net/client.h"
+#include "game/net/client/client.h"
 #include "game/net/fom_file.h"
 #include "game/replication/trajectory_codec.h"
-#include "loadgen/process.h"
+#include "loadgen/run/process.h"
 #include "rti/transport/federate_link.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/places.h"
 
 namespace rink::game {

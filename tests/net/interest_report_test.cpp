@@ -1,5 +1,5 @@
 // What a watcher is told of interest management, against what every client was told of the world.
-#include "game/net/interest_report.h"
+#include "game/net/server/interest_report.h"
 
 #include <gtest/gtest.h>
 

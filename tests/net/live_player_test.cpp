@@ -1,5 +1,5 @@
 // Players who see nothing but their client's mirror, in a rink stepped tick by tick.
-#include "loadgen/live_player.h"
+#include "loadgen/run/bots/live_player.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Steps server, RTI and clients by turns; a round in which nothing is sent ends the exchange.
 #include "tests/net/lockstep_rink.h"
 
-#include "game/net/acquaint.h"
+#include "game/net/server/acquaint.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/places.h"
 

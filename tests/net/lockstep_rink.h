@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "game/net/client.h"
-#include "game/net/server.h"
+#include "game/net/client/client.h"
+#include "game/net/server/server.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"

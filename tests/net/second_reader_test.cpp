@@ -114,7 +114,7 @@ struct RecordedSession final : rti::Outlet {
     const std::string session = (std::filesystem::path(folder) / "session").string();
     std::ofstream(session, std::ios::binary) << record;
     std::istringstream text(rti::testing::output_of("python3 -B '" + test::source_folder() +
-                                                    "/tests/rti/second_reader.py' '" +
+                                                    "/tests/rti/wire/second_reader.py' '" +
                                                     model_path() + "' '" + session + "' 2>&1"));
     std::vector<std::string> lines;
     for (std::string line; std::getline(text, line);) lines.push_back(line);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "game/net/server.h"
+#include "game/net/server/server.h"
 #include "tests/net/guest.h"
 #include "tests/temporary_folder.h"
 

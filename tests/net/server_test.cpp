@@ -1,5 +1,5 @@
 // The server federate: seats, stamped keys, replays, and the same game whatever carries it.
-#include "game/net/server.h"
+#include "game/net/server/server.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "game/replication/trajectory_codec.h"
-#include "loadgen/bot_crowd.h"
-#include "rti/transport/tcp.h"
+#include "loadgen/run/bots/bot_crowd.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 #include "tests/net/wall_clock.h"

@@ -10,12 +10,12 @@
 #include <optional>
 #include <random>
 
-#include "game/net/client.h"
-#include "game/net/serving.h"
+#include "game/net/client/client.h"
+#include "game/net/server/serving.h"
 #include "game/replication/trajectory_codec.h"
 #include "rti/transport/in_process.h"
 #include "rti/transport/socket_transport.h"
-#include "rti/transport/virtual_network.h"
+#include "rti/transport/modelled/virtual_network.h"
 #include "tests/net/scenes.h"
 #include "tests/net/wall_clock.h"
 #include "tests/places.h"

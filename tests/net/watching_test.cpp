@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "game/net/network_match.h"
+#include "game/net/client/network_match.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"

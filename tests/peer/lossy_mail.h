@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/peer/session_state.h"
+#include "game/peer/session/session_state.h"
 #include "game/peer/protocol.h"
 
 namespace rink::peer::test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "game/peer/assembly.h"
-#include "game/peer/session.h"
+#include "game/peer/session/session.h"
 #include "game/physics/snapshot_stream.h"
 #include "tests/peer/shared_scenes.h"
 

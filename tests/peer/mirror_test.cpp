@@ -1,5 +1,5 @@
 // The part of a peer as another one keeps it: what it has, one step behind, and which keys it has told of.
-#include "game/peer/mirror.h"
+#include "game/peer/session/mirror.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <set>
 #include <thread>
 
-#include "game/peer/session.h"
+#include "game/peer/session/session.h"
 #include "tests/peer/fate.h"
 #include "tests/peer/lossy_mail.h"
 #include "tests/peer/shared_scenes.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/peer/session.h"
+#include "game/peer/session/session.h"
 #include "game/peer/validation.h"
 #include "tests/peer/shared_scenes.h"
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "game/peer/session.h"
-#include "rti/transport/network_model.h"
+#include "game/peer/session/session.h"
+#include "rti/transport/modelled/network_model.h"
 
 namespace rink::peer::test {
 

@@ -17,8 +17,8 @@
 
 #include "game/model/scene_file.h"
 #include "game/net/peer/crowd.h"
-#include "game/net/peer/seating.h"
-#include "game/net/peer/viewer.h"
+#include "game/net/peer/meeting/seating.h"
+#include "game/net/peer/interest/viewer.h"
 #include "game/replication/region_sweep.h"
 #include "tests/im/recount.h"
 #include "tests/peer/lossy_mail.h"

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "game/net/peer/player_picture.h"
-#include "game/net/peer/sender_interest.h"
+#include "game/net/peer/interest/player_picture.h"
+#include "game/net/peer/interest/sender_interest.h"
 #include "game/peer/assembly.h"
 #include "tests/physics/scenes.h"
 

@@ -2,9 +2,9 @@
 #include "tests/peer_command/peer_processes.h"
 
 #include "game/net/address.h"
-#include "game/net/peer/frames.h"
+#include "game/net/peer/meeting/frames.h"
 #include "game/net/peer/shared_game.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/tcp/tcp.h"
 
 namespace rink::game {
 namespace {

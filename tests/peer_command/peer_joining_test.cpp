@@ -1,8 +1,8 @@
 // Processes of rink-peer that come while others play, leave, and are killed: whoever is there at the end has the hash of one engine.
 #include <set>
 
-#include "game/peer/session.h"
-#include "rti/transport/tcp.h"
+#include "game/peer/session/session.h"
+#include "rti/transport/tcp/tcp.h"
 #include "tests/peer_command/peer_processes.h"
 
 namespace rink::game {

@@ -18,7 +18,7 @@
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
-#include "loadgen/process.h"
+#include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

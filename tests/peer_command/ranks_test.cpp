@@ -16,8 +16,8 @@
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
-#include "game/net/peer/rank_mail.h"
-#include "loadgen/process.h"
+#include "game/net/peer/meeting/rank_mail.h"
+#include "loadgen/run/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

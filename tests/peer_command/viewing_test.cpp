@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "game/net/peer/peer_evidence.h"
-#include "game/net/peer/seating.h"
+#include "game/net/peer/meeting/seating.h"
 #include "game/players/random_plan.h"
 #include "tests/peer_command/peer_processes.h"
 

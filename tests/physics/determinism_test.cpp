@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "game/physics/discs_near.h"
+#include "game/physics/flight/discs_near.h"
 
 namespace rink::physics::test {
 namespace {

@@ -1,5 +1,5 @@
 // The binary heap gives the same events in the same order as the calendar, and as a search through all.
-#include "game/physics/event_heap.h"
+#include "game/physics/events/event_heap.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "game/physics/event_queue.h"
-#include "scenes.h"
+#include "game/physics/events/event_queue.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

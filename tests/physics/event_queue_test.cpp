@@ -1,5 +1,5 @@
 // The calendar queue: the order of its events is that of their times, and its work does not depend on how it was asked.
-#include "game/physics/event_queue.h"
+#include "game/physics/events/event_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/physics/event_heap.h"
+#include "game/physics/events/event_heap.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics {

@@ -1,11 +1,11 @@
 // Own exponential, logarithm and warped time against 80-bit arithmetic.
-#include "game/physics/exponential.h"
+#include "game/physics/flight/exponential.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "game/physics/motion.h"
+#include "game/physics/flight/motion.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

@@ -1,5 +1,5 @@
 // Times of first contact against closed forms, fine stepping in extended precision, and the hard cases.
-#include "game/physics/impact_time.h"
+#include "game/physics/flight/impact_time.h"
 
 #include <gtest/gtest.h>
 

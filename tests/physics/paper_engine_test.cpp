@@ -4,8 +4,8 @@
 #include <array>
 
 #include "game/physics/simulator.h"
-#include "play.h"
-#include "scenes.h"
+#include "tests/physics/play.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "game/physics/simulator.h"
-#include "play.h"
-#include "scenes.h"
+#include "tests/physics/play.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics {
 namespace {

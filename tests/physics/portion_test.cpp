@@ -7,7 +7,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

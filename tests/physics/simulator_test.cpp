@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics {
 namespace {

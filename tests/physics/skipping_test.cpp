@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

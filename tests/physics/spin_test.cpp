@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "game/physics/impact_time.h"
+#include "game/physics/flight/impact_time.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

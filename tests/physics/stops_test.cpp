@@ -7,7 +7,7 @@
 #include <iostream>
 #include <utility>
 
-#include "scenes.h"
+#include "tests/physics/scenes.h"
 
 namespace rink::physics::test {
 namespace {

@@ -1,5 +1,5 @@
 // Discs in straight flight: whom one of them meets first, asked two at a time or one by one.
-#include "game/physics/straight_flight.h"
+#include "game/physics/flight/straight_flight.h"
 
 #include <gtest/gtest.h>
 

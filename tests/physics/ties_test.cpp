@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "game/physics/event_heap.h"
-#include "game/physics/event_queue.h"
+#include "game/physics/events/event_heap.h"
+#include "game/physics/events/event_queue.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -7,8 +7,8 @@
 #include "rti/federation_directory.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
-#include "rti/transport/tcp.h"
-#include "tests/rti/airport.h"
+#include "rti/transport/tcp/tcp.h"
+#include "tests/rti/scenes/airport.h"
 
 namespace rink::rti::airport {
 namespace {

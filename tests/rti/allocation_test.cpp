@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "rig.h"
+#include "tests/rti/rig.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "rti/distribution/interest.h"
 #include "rti/wire/region_messages.h"
-#include "tests/rti/airspace.h"
+#include "tests/rti/scenes/airspace.h"
 
 namespace rink::rti::testing {
 namespace {

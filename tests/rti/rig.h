@@ -14,8 +14,8 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
-#include "rti/transport/network_model.h"
-#include "rti/transport/tcp.h"
+#include "rti/transport/modelled/network_model.h"
+#include "rti/transport/tcp/tcp.h"
 
 namespace rink::rti::testing {
 

@@ -1,7 +1,7 @@
 // What nobody hears is not sent, and nobody hears the difference: the same random federation twice, once with one more federate that listens to everything, so that nothing is spared.
 #include <gtest/gtest.h>
 
-#include "tests/rti/sailors.h"
+#include "tests/rti/scenes/sailors.h"
 
 namespace rink::rti::testing {
 namespace {

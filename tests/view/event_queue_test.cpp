@@ -1,5 +1,5 @@
 // Which frame sees what a person did.
-#include "game/view/event_queue.h"
+#include "game/view/window/event_queue.h"
 
 #include <gtest/gtest.h>
 

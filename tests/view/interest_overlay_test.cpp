@@ -1,5 +1,5 @@
 // What the overlay of interest shows of the decisions that it is given.
-#include "game/view/interest_overlay.h"
+#include "game/view/overlays/interest_overlay.h"
 
 #include <gtest/gtest.h>
 

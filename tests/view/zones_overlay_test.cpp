@@ -1,5 +1,5 @@
 // Zones of peers over the field, from what one of them knows.
-#include "game/view/zones_overlay.h"
+#include "game/view/overlays/zones_overlay.h"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/peer/session.h"
+#include "game/peer/session/session.h"
 #include "game/players/player.h"
 
 namespace rink::game {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/net/peer/peer_sight.h"
+#include "game/net/peer/interest/peer_sight.h"
 
 namespace rink::game {
 

@@ -9,7 +9,7 @@
 #include "game/control/game.h"
 #include "game/net/peer/hand.h"
 #include "game/net/peer/shared_game.h"
-#include "game/net/peer/viewer.h"
+#include "game/net/peer/interest/viewer.h"
 
 namespace rink::game {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "game/net/peer/shared_game.h"
-#include "game/net/peer/shared_interest.h"
+#include "game/net/peer/interest/shared_interest.h"
 #include "game/net/peer/traffic.h"
 #include "game/peer/window_play.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "game/net/peer/shared_interest.h"
+#include "game/net/peer/interest/shared_interest.h"
 
 namespace rink::game {
 

@@ -11,8 +11,8 @@
 #include "game/net/address.h"
 #include "game/net/interrupt.h"
 #include "game/net/peer/hand_player.h"
-#include "game/net/peer/listening_place.h"
-#include "game/net/peer/viewing_options.h"
+#include "game/net/peer/meeting/listening_place.h"
+#include "game/net/peer/interest/viewing_options.h"
 
 namespace rink::game {
 

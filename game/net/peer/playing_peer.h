@@ -6,9 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "game/net/peer/greetings.h"
+#include "game/net/peer/meeting/greetings.h"
 #include "game/net/peer/hand.h"
-#include "game/net/peer/meeting.h"
+#include "game/net/peer/meeting/meeting.h"
 #include "game/net/peer/peer_match.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/record_file.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "game/net/interrupt.h"
-#include "game/net/peer/frames.h"
+#include "game/net/peer/meeting/frames.h"
 
 namespace rink::game {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "game/net/peer/meeting.h"
+#include "game/net/peer/meeting/meeting.h"
 #include "game/net/peer/peer_evidence.h"
-#include "game/net/peer/viewer.h"
+#include "game/net/peer/interest/viewer.h"
 #include "game/net/sampling.h"
 
 namespace rink::game {

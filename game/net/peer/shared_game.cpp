@@ -14,7 +14,7 @@
 #include "game/control/game_hash.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
-#include "game/net/peer/seating.h"
+#include "game/net/peer/meeting/seating.h"
 
 namespace rink::game {
 

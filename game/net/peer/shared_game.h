@@ -10,8 +10,8 @@
 
 #include "game/control/game.h"
 #include "game/control/key_log.h"
-#include "game/net/peer/greetings.h"
-#include "game/peer/session.h"
+#include "game/net/peer/meeting/greetings.h"
+#include "game/peer/session/session.h"
 
 namespace rink::game {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "game/physics/collision/shapes.h"
-#include "game/physics/impact_time.h"
+#include "game/physics/flight/impact_time.h"
 
 namespace rink::physics::collision {
 

@@ -4,7 +4,7 @@
 
 #include "im/checked_filter.h"
 #include "im/filter.h"
-#include "im/predicate_filter.h"
+#include "im/schemes/predicate_filter.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"

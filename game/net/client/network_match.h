@@ -1,0 +1,104 @@
+// A match that is played on a server, seen and played from here.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "game/match/match_source.h"
+#include "game/match/news_delay.h"
+#include "game/match/noises.h"
+#include "game/match/predicted_rink.h"
+#include "game/match/server_clock.h"
+#include "game/match/sight.h"
+#include "game/net/client/client.h"
+#include "rti/transport/federate_link.h"
+
+namespace rink::game {
+
+struct NetworkMatchSettings {
+  std::string federation = "rink", name = "player";
+  bool only_watches = false;  ///< takes no bat; any federation of Rink can be watched, one that hosts no matches too
+};
+
+/// Owns the client federate and its link, and shows what they hear of as PredictedRink foretells it (docs/play.md). Reads no clock. A server that is gone, refuses, or says what is no match
+/// ends in the phase `lost`, with the reason as `notice`.
+class NetworkMatch final : public MatchSource {
+ public:
+  /// `connection` was opened by `transport`, which is polled here and has no other listener; it and the two others must outlive the match.
+  NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::Transport& transport, rti::ConnectionId connection, const NetworkMatchSettings& settings);
+
+  void advance(double now_s) override;
+  const MatchSight& sight() const override { return sight_; }
+  std::uint32_t hand_count() const override { return settings_.only_watches ? 0 : 1; }
+  /// Any hand moves the own bat.
+  void press(std::uint32_t hand, Key key, bool is_down) override;
+  void pause(bool is_wanted) override;
+  void rematch() override;
+  /// A crowd only; the server is asked ten times a second.
+  void inspect(std::uint32_t thing) override { inspected_ = thing; }
+  /// Takes leave of the server; nothing may follow.
+  void leave(double now_s);
+
+  const Client& client() const { return client_; }
+  /// Null while no match is known.
+  const PredictedRink* prediction() const { return rink_ ? &*rink_ : nullptr; }
+  /// The scene that is played; null before it is known.
+  const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
+  /// The player whose bat this is, once it is known.
+  std::optional<std::uint32_t> player() const { return settings_.only_watches ? std::nullopt : client_.bat_number(); }
+
+ private:
+  struct PressedKey {
+    Key key;
+    bool is_down;
+  };
+
+  static ClientSettings client_settings(const NetworkMatchSettings& settings);
+  void converse(double now_s);
+  void hear(double now_s);
+  bool read_scene();
+  void follow_state(double instant);
+  std::optional<ToldRink> told() const;
+  void press_keys(double instant);
+  void predict(double now_s);
+  void move_delay(double dt);
+  void show(double now_s);
+  void show_bodies();
+  void show_mirror(double now_s);
+  void show_state(double now_s);
+  void show_interest(double now_s);
+  void show_link(double now_s);
+  void lose(const std::string& why);
+
+  NetworkMatchSettings settings_;
+  Client client_;
+  rti::Transport& transport_;
+  rti::FederateLink link_;
+  rti::FederateLinks links_;
+  ServerClock clock_;
+  NewsDelay news_;
+  std::optional<Scene> scene_;
+  std::optional<PredictedRink> rink_;
+  MatchState state_;                 ///< as last heard
+  std::uint32_t match_number_ = 0;   ///< that rink_ foretells
+  std::uint64_t heard_updates_ = 0;
+  std::uint32_t caught_up_ = 0;      ///< stamps, in this frame
+  std::vector<PressedKey> pressed_;
+  std::vector<Thing> all_things_;    ///< of the scene
+  MatchSight sight_;
+  NoiseDetector noises_;
+  GoalWatch goals_;
+  double now_s_ = 0.0, delay_ = 0.0;
+  double heard_s_ = 0.0;             ///< real time of the newest stamp
+  double counted_s_ = 0.0, bytes_per_s_ = 0.0;
+  std::uint64_t counted_bytes_ = 0;
+  std::optional<std::uint32_t> inspected_;  ///< wanted since the last advance
+  double inspected_s_ = 0.0;               ///< when the server was last asked
+  std::string trouble_;
+  std::optional<double> joined_s_;  ///< real time
+  bool has_left_ = false;
+};
+
+}  // namespace rink::game

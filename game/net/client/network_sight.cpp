@@ -1,0 +1,96 @@
+// What a network match shows, made of what is foretold, what is mirrored, and how the connection does.
+#include <algorithm>
+#include <utility>
+
+#include "game/net/client/network_match.h"
+
+namespace rink::game {
+
+void NetworkMatch::show(double now_s) {
+  if (rink_ && rink_->has_heard()) show_bodies();
+  else if (settings_.only_watches) show_mirror(now_s);
+  show_state(now_s);
+  show_interest(now_s);
+  sight_.notice = trouble_.empty() && !joined_s_ ? "connecting ..." : trouble_;
+  if (trouble_.empty() && state_.is_unrecorded && sight_.phase != MatchPhase::playing) sight_.notice = "The host could not record the last match";
+  show_link(now_s);
+  goals_.look(sight_, now_s, scene_ ? scene_->rules.face_off_delay : 0.0);
+  noises_.listen(sight_);
+}
+
+void NetworkMatch::show_bodies() {
+  sight_.things = all_things_;
+  std::size_t thing = 0;
+  for (const auto* bodies : {&rink_->bats(), &rink_->pucks()})
+    for (const ShownBody& body : *bodies) {
+      sight_.things[thing].position = body.position;
+      sight_.things[thing++].velocity = body.velocity;
+    }
+  sight_.time = rink_->now();
+  const auto is_scored = [&](const Thing& each) { return each.kind == physics::BodyKind::puck && (each.position.x() < 0.0 || each.position.x() > sight_.field.length); };
+  if (state_.phase != MatchPhase::over) std::erase_if(sight_.things, is_scored);
+}
+
+/// A game that is no match: everything on its path, as far as it was told.
+void NetworkMatch::show_mirror(double now_s) {
+  const Mirror& mirror = client_.mirror();
+  if (!mirror.field()) return;
+  sight_.field.length = static_cast<double>(mirror.field()->length);
+  sight_.field.width = static_cast<double>(mirror.field()->width);
+  sight_.time = mirror.newest().time + (mirror.newest().time > 0.0 ? now_s - heard_s_ : 0.0);
+  sight_.things.clear();
+  for (const MirroredEntity& entity : mirror.entities()) {
+    if (!entity.in_scope || !entity.is_placed) continue;  // a budget may say later where it is, and what
+    sight_.things.push_back({.id = entity.object.value,
+                             .kind = static_cast<physics::BodyKind>(entity.shape.kind),
+                             .team = static_cast<Team>(entity.shape.team),
+                             .position = entity.position_at(sight_.time),
+                             .half_extent = {static_cast<double>(entity.shape.half_length), static_cast<double>(entity.shape.half_width)}});
+  }
+}
+
+void NetworkMatch::show_state(double now_s) {
+  const Goals& goals = client_.mirror().goals();
+  sight_.score = {goals.left, goals.right};
+  sight_.winner = state_.winner;
+  sight_.phase = state_.phase;
+  if (!trouble_.empty()) sight_.phase = MatchPhase::lost;
+  else if (client_.state() != Client::State::playing) sight_.phase = MatchPhase::waiting;
+  else if (!client_.mirror().has_match()) sight_.phase = MatchPhase::playing;
+  else if (state_.phase == MatchPhase::countdown && rink_ && rink_->now() > state_.clock_simulated_s) sight_.phase = MatchPhase::playing;  // it is foreseen
+  const bool is_counted = sight_.phase == MatchPhase::countdown || sight_.phase == MatchPhase::away;
+  sight_.remaining_s = is_counted && clock_.is_set() ? std::max(0.0, state_.until_s - clock_.arrival(now_s)) : 0.0;
+  const std::optional<std::uint32_t> own = player();
+  if (!own || *own > 1) return;
+  sight_.own_team = *own == 0 ? Team::left : Team::right;
+  sight_.wants_rematch = state_.wants_rematch[*own];
+  sight_.other_wants_rematch = state_.wants_rematch[1 - *own];
+}
+
+/// What is shown was decided up to a tenth of a second and a round trip ago.
+void NetworkMatch::show_interest(double now_s) {
+  if (auto told = client_.take_interest(); told && inspected_) sight_.interest = std::move(told);
+  const std::optional<std::uint32_t> wanted = std::exchange(inspected_, std::nullopt);
+  if (!wanted) sight_.interest.reset();
+  if (!wanted || sight_.phase != MatchPhase::playing || client_.mirror().has_match() || now_s < inspected_s_ + 0.1) return;
+  client_.inspect(rti::ObjectHandle{*wanted});
+  inspected_s_ = now_s;
+}
+
+void NetworkMatch::show_link(double now_s) {
+  const rti::AmbassadorCounters& counters = client_.ambassador().counters();
+  if (now_s - counted_s_ >= 1.0) {
+    bytes_per_s_ = counted_s_ == 0.0 ? 0.0 : static_cast<double>(counters.bytes_received - counted_bytes_) / (now_s - counted_s_);
+    counted_s_ = now_s;
+    counted_bytes_ = counters.bytes_received;
+  }
+  LinkFigures figures{.ping_ms = 1e3 * clock_.ping_s(), .jitter_ms = 1e3 * clock_.jitter_s(), .loss = clock_.loss(), .tick = counters.frames_received, .payload_bytes_per_s = bytes_per_s_};
+  if (rink_) {
+    figures.lead_ms = 1e3 * delay_;
+    figures.corrections = rink_->own_corrections().visible_count;
+    figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
+  }
+  sight_.link = figures;
+}
+
+}  // namespace rink::game

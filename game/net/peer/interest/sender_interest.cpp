@@ -1,0 +1,206 @@
+// A filter over the bodies that are here, and update messages made of what it says.
+#include "game/net/peer/interest/sender_interest.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "game/net/peer/interest/player_picture.h"
+#include "game/replication/attributes.h"
+#include "game/replication/region_sweep.h"
+#include "game/replication/trajectory_codec.h"
+#include "rti/wire/stream.h"
+
+namespace rink::game {
+
+namespace {
+
+constexpr float coordinate_max = 1e7f;  // m, or cells
+
+bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t value) { return std::binary_search(sorted.begin(), sorted.end(), value); }
+
+template <class Stream>
+bool exchange(Stream& stream, Gaze& gaze) {
+  auto form = static_cast<std::uint8_t>(gaze.form);
+  if (!stream.range(form, static_cast<std::uint8_t>(Gaze::Form::cells))) return false;
+  gaze.form = static_cast<Gaze::Form>(form);
+  if (gaze.form == Gaze::Form::away) return true;
+  for (float* side : {&gaze.low_x, &gaze.low_y, &gaze.high_x, &gaze.high_y}) {
+    // Cells are few, so their numbers go in two bytes where they fit.
+    auto number = static_cast<std::int16_t>(*side);
+    if (gaze.form == Gaze::Form::region ? !stream.number(*side) : !stream.number(number)) return false;
+    if (gaze.form == Gaze::Form::cells) *side = number;
+    if (!std::isfinite(*side) || std::abs(*side) > coordinate_max) return false;
+  }
+  return gaze.low_x <= gaze.high_x && gaze.low_y <= gaze.high_y;
+}
+
+}  // namespace
+
+Gaze gaze_at(const im::Region& region, double cell_size) {
+  const auto single = [](double value) { return static_cast<float>(value); };
+  const Gaze exact{Gaze::Form::region, single(region.low_x), single(region.low_y), single(region.high_x), single(region.high_y)};
+  if (cell_size == 0.0) return exact;
+  const auto cell = [cell_size](double value) { return static_cast<float>(std::floor(value / cell_size)); };
+  const Gaze cells{Gaze::Form::cells, cell(region.low_x), cell(region.low_y), cell(region.high_x), cell(region.high_y)};
+  const auto fits = [](float number) { return std::abs(number) < 32'000.0f; };
+  return fits(cells.low_x) && fits(cells.low_y) && fits(cells.high_x) && fits(cells.high_y) ? cells : exact;
+}
+
+im::Region region_of(const Gaze& gaze, double cell_size) {
+  const auto place = [&](float side, double within) { return gaze.form == Gaze::Form::cells ? (static_cast<double>(side) + within) * cell_size : static_cast<double>(side); };
+  return {place(gaze.low_x, 0.25), place(gaze.low_y, 0.25), place(gaze.high_x, 0.75), place(gaze.high_y, 0.75)};
+}
+
+std::vector<std::byte> bytes_of(const Gaze& gaze) {
+  std::vector<std::byte> bytes;
+  rti::Writer writer(bytes);
+  Gaze copy = gaze;
+  [[maybe_unused]] const bool is_sound = exchange(writer, copy);
+  assert(is_sound);
+  return bytes;
+}
+
+std::optional<Gaze> gaze_from(rti::Bytes bytes) {
+  rti::Reader reader(bytes);
+  Gaze gaze;
+  return exchange(reader, gaze) && reader.is_at_end() ? std::optional(gaze) : std::nullopt;
+}
+
+SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettings& settings, const std::string& policy, std::vector<im::Role> roles, double extent_max)
+    : filter_(im::make_filter(scheme, settings)),
+      world_(settings.world),
+      cell_size_(scheme == "grid" ? filter_->cell_size() : 0.0),
+      reach_(cell_size_ > 0.0 ? SchemeReach{extent_max + cell_size_, extent_max + cell_size_} : reach_of(scheme, settings, extent_max)),
+      is_selective_(scheme != "none"),
+      remembers_(scheme.find("with") != std::string::npos || scheme.find("cone") != std::string::npos),
+      tells_trajectories_(policy == "on-event"),
+      body_roles_(std::move(roles)),
+      is_here_(body_roles_.size(), 0) {
+  assert(filter_ && (policy == "periodic" || policy == "on-event"));
+}
+
+void SenderInterest::add_player(peer::PeerNumber player, std::uint32_t bat) {
+  if (player >= scopes_.size()) scopes_.resize(player + 1), sent_.resize(player + 1), handed_over_.resize(player + 1), player_roles_.resize(player + 1);
+  player_roles_[player] = body_roles_[bat];
+  if (!is_selective_) look(player, world_);
+}
+
+void SenderInterest::remove_player(peer::PeerNumber player) {
+  if (player < scopes_.size()) look_away(player);
+}
+
+void SenderInterest::look(peer::PeerNumber player, const im::Region& region) {
+  filter_->set_subscription_region(player, region);
+  filter_->set_subscriber_role(player, player_roles_[player]);
+}
+
+void SenderInterest::look_away(peer::PeerNumber player) {
+  filter_->remove_subscriber(player);
+  scopes_[player].clear();
+  sent_[player].clear();
+  handed_over_[player].clear();
+}
+
+void SenderInterest::match(const peer::Peer& peer) {
+  std::vector<std::uint32_t> here = peer.owned();
+  here.insert(here.end(), peer.ghosts().begin(), peer.ghosts().end());
+  const physics::World& world = peer.world();
+  for (const std::uint32_t body : peer.owned()) filter_->set_update_region(body, bounding_box(world.position({body}), world.half_extent({body})));
+  for (const std::uint32_t body : peer.ghosts()) filter_->set_update_region(body, bounding_box(peer.known_place(body), world.half_extent({body})));
+  for (const std::uint32_t body : here) {
+    if (is_here_[body] == 0) filter_->set_entity_role(body, body_roles_[body]);
+    is_here_[body] = 2;
+  }
+  bool has_lost = false;
+  for (const std::uint32_t body : here_) {
+    if (is_here_[body] == 2) continue;
+    filter_->remove_entity(body);
+    told_.erase(body);
+    is_here_[body] = 0;
+    has_lost = true;
+  }
+  for (const std::uint32_t body : here) is_here_[body] = 1;
+  here_ = std::move(here);
+  if (has_lost)
+    for (std::vector<std::uint32_t>& scope : scopes_) std::erase_if(scope, [this](std::uint32_t body) { return is_here_[body] == 0; });
+  const std::span<const im::Change> changes = filter_->match();
+  for (std::size_t first = 0, last = 0; first < changes.size(); first = last) {
+    std::vector<std::uint32_t>& scope = scopes_[changes[first].subscriber];
+    for (last = first; last < changes.size() && changes[last].subscriber == changes[first].subscriber; ++last) {
+      const std::uint32_t body = changes[last].entity;
+      const auto place = std::lower_bound(scope.begin(), scope.end(), body);
+      const bool is_in = place != scope.end() && *place == body;
+      if (changes[last].transition == im::Transition::entered && !is_in) scope.insert(place, body);
+      if (changes[last].transition == im::Transition::left && is_in) scope.erase(place);
+    }
+  }
+}
+
+/// Once a window for each body of which anybody hears; as the policies of a server do, but for bodies of which nobody does.
+const SenderInterest::Told& SenderInterest::told_of(const physics::World& world, std::uint32_t body, std::uint32_t window) {
+  Told& told = told_[body];
+  if (told.window == window) return told;
+  constexpr double worthwhile_s = 0.1;  // one that is to be replaced so soon may as well be replaced now
+  const bool is_new = told.window == 0xffffffffu || told.window + 1 != window;  // others may have told of it meanwhile
+  told.window = window;
+  if (tells_trajectories_) {
+    if (!is_new) told.until_s = holds_until(world, {body}, told.trajectory);
+    told.is_due = is_new || told.until_s < world.now() + worthwhile_s;
+    if (told.is_due) told.trajectory = trajectory_of(world, {body}), told.until_s = holds_until(world, {body}, told.trajectory);
+    std::vector<std::byte> value;
+    encode(value, told.trajectory);
+    told.coded.clear();
+    TrajectoryCodec().encode(value, world.now(), told.coded);
+  } else {
+    told.is_due = world.kind({body}) != physics::BodyKind::post;
+    encode(told.coded, rounded(world.position({body})));
+  }
+  return told;
+}
+
+std::vector<std::byte> SenderInterest::updates_for(const peer::Peer& peer, peer::PeerNumber player, std::uint32_t window, const std::function<std::optional<std::uint32_t>(std::uint32_t)>& felt) {
+  using Form = ToldOf::Form;
+  std::vector<std::byte> message;
+  rti::Writer writer(message);
+  const auto put = [&](std::uint32_t body, Form form, std::uint32_t felt_count, rti::Bytes motion) {
+    if (message.empty()) writer.varint(window);
+    std::uint64_t head = std::uint64_t{body} << 2 | static_cast<std::uint64_t>(form);
+    writer.varint(head);
+    if (form == Form::felt || form == Form::motion_and_felt) writer.varint(felt_count);
+    if (!motion.empty()) writer.rest(motion, motion.size());
+  };
+  std::vector<std::uint32_t> now_sent;
+  std::vector<std::uint32_t>& sent = sent_[player];
+  const std::vector<std::uint32_t>& scope = scopes_[player];
+  const physics::World& world = peer.world();
+  for (const std::uint32_t body : peer.owned()) {
+    const std::optional<std::uint32_t> newly_felt = felt(body);
+    const bool is_told = contains(scope, body) && !peer.will_have(player, body);
+    if (!is_told) {
+      if (newly_felt) put(body, Form::felt, *newly_felt, {});
+      continue;
+    }
+    now_sent.push_back(body);
+    const Told& told = told_of(world, body, window);
+    const bool is_due = told.is_due || !contains(sent, body);
+    if (is_due) put(body, newly_felt ? Form::motion_and_felt : Form::motion, newly_felt.value_or(0), told.coded);
+    else if (newly_felt) put(body, Form::felt, *newly_felt, {});
+    motions_sent_ += is_due;
+  }
+  std::sort(now_sent.begin(), now_sent.end());
+  // What is the player's own or ghost it sees for itself; what is another's by now, and still seen, that one tells of. Where its new owner, who has not seen all that we have, may decide
+  // otherwise, it is told as left: if the new owner has told of it, that is not believed. That one first tells of it in this window, so we do in the next: nobody loses sight of it meanwhile.
+  for (const std::uint32_t body : handed_over_[player])
+    if (!contains(now_sent, body) && (remembers_ || !contains(scope, body))) put(body, Form::left, 0, {});
+  handed_over_[player].clear();
+  for (const std::uint32_t body : sent) {
+    if (contains(now_sent, body)) continue;
+    if (!peer.owns(body)) handed_over_[player].push_back(body);
+    else if (!contains(scope, body)) put(body, Form::left, 0, {});
+  }
+  sent = std::move(now_sent);
+  return message;
+}
+
+}  // namespace rink::game

@@ -1,0 +1,63 @@
+// Interest in a running session: what a peer's player sees beyond what the peer has, and what the other players are told, window by window.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "game/net/peer/meeting/asides.h"
+#include "game/net/peer/shared_game.h"
+#include "game/net/peer/interest/shared_interest.h"
+#include "game/net/peer/traffic.h"
+
+namespace rink::game {
+
+/// To be given to SharedGame::play as its listener. Of each aside the first byte says what it is about (Traffic). With who comes all begins, who leaves is forgotten; when somebody is lost,
+/// and windows are undone, all who are left tell each other anew.
+class Viewer : public WindowListener {
+ public:
+  /// `game` and `asides` must outlive it. Throws peer::ProtocolError for a scheme or a policy of the settings that is none.
+  Viewer(const SharedGame& game, InterestSettings settings, Asides& asides);
+  ~Viewer() override;
+
+  /// All have accepted a window; and all is known that others tell of it: the player's picture is whole.
+  std::function<void()> on_final, on_commit;
+
+  void begin(const peer::Session& session) override;
+  void when_played() override;
+  void when_told() override;
+  void when_stepped() override;
+  void end() override;
+
+  /// Only between `begin` and `end`.
+  SharedInterest& interest() { return *interest_; }
+  const SharedInterest& interest() const { return *interest_; }
+  /// How many windows are final.
+  std::uint64_t windows() const { return session_->window(); }
+  /// At the end: bodies that the player saw, and those of them that it was told of.
+  std::size_t in_view() const { return in_view_; }
+  std::size_t told_of() const { return told_of_; }
+  /// Contents sent aside, without frames, and messages, by what they are about.
+  const TrafficBytes& sent() const { return sent_; }
+  const TrafficBytes& messages_sent() const { return messages_sent_; }
+
+ private:
+  bool hear(peer::PeerNumber from, std::vector<std::uint8_t> bytes);
+  bool apply(peer::PeerNumber from, std::span<const std::uint8_t> bytes);
+  bool is_recovering() const { return session_->lost().size() != lost_; }
+  void settle();
+  std::vector<std::uint32_t> bats() const;
+
+  const SharedGame& game_;
+  InterestSettings settings_;
+  Asides& asides_;
+  const peer::Session* session_ = nullptr;
+  std::optional<SharedInterest> interest_;
+  std::vector<peer::PeerNumber> members_;
+  std::size_t lost_ = 0, in_view_ = 0, told_of_ = 0;       ///< `lost_`: how many when all was last told anew
+  std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> put_off_;  ///< that came while the session recovers
+  TrafficBytes sent_{}, messages_sent_{};
+};
+
+}  // namespace rink::game

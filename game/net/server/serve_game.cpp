@@ -1,0 +1,36 @@
+// Reads what the flags name, each checked against the scene.
+#include "game/net/server/serve_game.h"
+
+#include <utility>
+
+#include "game/control/game_state.h"
+#include "game/control/replay.h"
+#include "game/model/scene_file.h"
+
+namespace rink::game {
+
+ServedGame served_game(const ServeOptions& options) {
+  ServedGame played;
+  played.choice = {.scene = options.scene, .bats = options.bats, .bat_count = options.bat_count, .puck_count = options.puck_count, .seed = options.seed};
+  played.scene = chosen_scene(played.choice);
+  if (!options.keys.empty()) {
+    KeyLog log = read_key_log(options.keys);
+    require_fit(log, played.scene, options.keys);
+    played.replay = std::move(log.events);
+  }
+  if (!options.from_state.empty()) {
+    played.state = read_game_state(options.from_state);
+    played.begun = game_in_state(played.state, played.scene, options.from_state);
+  }
+  return played;
+}
+
+KeyLog record_of(const ServedGame& played, const Server& server) {
+  KeyLog log = log_of(server.game(), played.scene, scene_text(played.choice.scene), server.record());
+  log.scene = played.choice.scene;
+  if (played.choice.bat_count > 0) log.bat_count = played.choice.bat_count;
+  if (played.choice.puck_count > 0) log.puck_count = played.choice.puck_count;
+  return log;
+}
+
+}  // namespace rink::game

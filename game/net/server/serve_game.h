@@ -1,0 +1,30 @@
+// What rink serve plays: the scene, the keys and the state to begin from, as its flags say.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/control/key_log.h"
+#include "game/net/scene_choice.h"
+#include "game/net/server/serve_options.h"
+#include "game/net/server/server.h"
+
+namespace rink::game {
+
+struct ServedGame {
+  SceneChoice choice;
+  Scene scene;
+  std::optional<std::vector<InputEvent>> replay;  ///< that moves the bats instead of the players' keys
+  std::vector<std::uint8_t> state;                ///< the saved game to begin from, as read; empty: the scene's beginning
+  std::optional<Game> begun;                      ///< the same as a game
+};
+
+/// Throws SceneError naming the file that cannot be read or does not fit the scene.
+ServedGame served_game(const ServeOptions& options);
+
+/// All that it takes to play the game again up to now and to compare the hash.
+KeyLog record_of(const ServedGame& played, const Server& server);
+
+}  // namespace rink::game

@@ -1,0 +1,97 @@
+// The order of a tick: play, publish, match, flush.
+#include "game/net/server/serving.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "game/net/server/acquaint.h"
+#include "game/net/server/interest_report.h"
+
+namespace rink::game {
+namespace {
+
+std::chrono::nanoseconds nanoseconds(double seconds) { return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)); }
+
+/// Adds the time since it was made or last read to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(const Serving::Clock& now_s) : now_s_(now_s), since_(now_s()) {}
+  void add_to(double& sum) {
+    const double now = now_s_();
+    sum += now - since_;
+    since_ = now;
+  }
+
+ private:
+  const Serving::Clock& now_s_;
+  double since_;
+};
+
+}  // namespace
+
+Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server, const rti::FederationSettings& federation, Clock now_s, Clock simulated_now)
+    : now_s_(std::move(now_s)),
+      execution_(fom, federation),
+      host_(execution_),
+      server_(fom, scene, server, std::move(simulated_now)),
+      link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
+  execution_.advance_clock(now_s_());  // before anybody connects: silence counts from then on
+  links_.add(link_);
+  host_.add(hub_);
+  if (execution_.filter().traits().uses_flights) server_.hand_in_flights();
+}
+
+void Serving::exchange(double longest_wait_s) {
+  host_.poll(nanoseconds(std::max(0.0, longest_wait_s)));
+  host_.flush();
+  endpoint_.poll({}, links_);
+  link_.flush(now_s_());
+  if (!server_.take_urgent()) return;
+  host_.poll(hub_);
+  host_.flush();
+}
+
+TickCosts Serving::tick(double simulated_s, double due_s) {
+  TickCosts costs;
+  Stopwatch watch(now_s_);
+  server_.simulate(simulated_s);
+  watch.add_to(costs.physics_s);
+  send(simulated_s, due_s, costs);
+  for (const Server::Inspecting& each : server_.take_inspections()) server_.tell_interest(each.federate, interest_report(server_, execution_, each.object));
+  if (witness_) witness_->look(server_, execution_, {simulated_s, costs.physics_s, costs.filter_s, costs.send_s});
+  host_.advance_clock(now_s_());
+  return costs;
+}
+
+std::optional<ServerEvidence> Serving::evidence() const {
+  if (!witness_) return std::nullopt;
+  return witness_->evidence(server_);
+}
+
+void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
+  Stopwatch watch(now_s_);
+  const bool is_hosting = server_.match() != nullptr;  // players of matches ask for the time instead, and are spared the bytes of the tag
+  server_.publish({.time = simulated_s, .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
+  link_.flush(now_s_());
+  host_.poll({});
+  acquaint(server_, execution_);
+  watch.add_to(costs.send_s);
+  host_.match();
+  watch.add_to(costs.filter_s);
+  host_.flush();
+  watch.add_to(costs.send_s);
+}
+
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme, double cell_size) {
+  rti::FederationSettings settings;
+  settings.filter = scheme;
+  settings.filter_settings = {.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width}, .cell_size = cell_size};
+  settings.filter_settings.drag = scene.world.puck_drag;
+  for (const Post& post : scene.bodies.posts) settings.filter_settings.posts.push_back({post.body.position.x(), post.body.position.y(), post.body.radius});
+  return settings;
+}
+
+}  // namespace rink::game

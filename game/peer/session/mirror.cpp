@@ -1,0 +1,52 @@
+// Parts kept up to date, one step behind.
+#include "game/peer/session/mirror.h"
+
+#include <cassert>
+
+namespace rink::peer {
+
+bool Mirror::add(PartChange change) {
+  const std::optional<std::uint64_t> step = last_ ? std::optional(last_->step) : base_ ? std::optional(base_->step) : std::nullopt;
+  if (!change.is_whole && (!step || change.step != *step + 1)) return false;
+  apply();
+  last_ = std::move(change);
+  return true;
+}
+
+void Mirror::apply() {
+  if (!last_) return;
+  PartChange& change = *last_;
+  if (!base_ || change.is_whole) base_ = Part{};
+  Part& part = *base_;
+  part.step = change.step, part.time = change.time;
+  for (const std::uint32_t body : change.gone) part.bodies.erase(body);
+  for (const auto& [body, state] : change.bodies) part.bodies[body] = state;
+  for (const Flown& flown : change.flown)
+    if (const auto kept = part.bodies.find(flown.number); kept != part.bodies.end()) flown.write_to(kept->second.flight);
+  part.holds = std::move(change.holds);
+  part.keys = std::move(change.keys);
+  part.log.insert(part.log.end(), change.log.begin(), change.log.end());
+  last_.reset();
+}
+
+bool Mirror::rewind(std::uint64_t step) {
+  if (last_ && last_->step == step) return true;
+  if (!base_ || base_->step != step) return false;
+  last_.reset();
+  return true;
+}
+
+const Part& Mirror::part() {
+  apply();
+  assert(base_);
+  return *base_;
+}
+
+std::vector<Key> Mirror::log() const {
+  std::vector<Key> all;
+  if (base_ && !(last_ && last_->is_whole)) all = base_->log;
+  if (last_) all.insert(all.end(), last_->log.begin(), last_->log.end());
+  return all;
+}
+
+}  // namespace rink::peer

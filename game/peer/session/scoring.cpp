@@ -1,0 +1,32 @@
+// The rules of Game::count_goal and Game::schedule, on numbers of bodies.
+#include "game/peer/session/scoring.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace rink::peer {
+
+void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
+  std::sort(goals.begin(), goals.end(), [](const Goal& a, const Goal& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); });
+  for (const Goal& goal : goals) {
+    if (is_over) return;
+    std::uint32_t& scored = goal.is_left ? right : left;
+    ++scored;
+    is_over = rules.goals_to_win && scored >= *rules.goals_to_win;
+    if (is_over) face_offs.clear();
+    else schedule({goal.time + rules.face_off_delay, goal.puck, goal.is_left});
+  }
+}
+
+double Scoring::next_after(double time) const {
+  const auto due = std::find_if(face_offs.begin(), face_offs.end(), [time](const FaceOff& one) { return one.time > time; });
+  return due == face_offs.end() ? std::numeric_limits<double>::infinity() : due->time;
+}
+
+void Scoring::schedule(const FaceOff& due) {
+  const auto is_before = [](const FaceOff& a, const FaceOff& b) { return std::tuple(a.time, a.puck) < std::tuple(b.time, b.puck); };
+  face_offs.insert(std::upper_bound(face_offs.begin(), face_offs.end(), due, is_before), due);
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,283 @@
+// Windows in steps, and the parts of others kept meanwhile.
+#include "game/peer/session/session.h"
+
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace rink::peer {
+
+Whole Whole::of(const physics::World& world) {
+  Whole whole{.spec = world.spec(), .body_count = world.body_count()};
+  if (whole.spec.field.goal_width == 0.0) return whole;
+  for (std::uint32_t body = 0; body < whole.body_count; ++body) whole.puck_radii.push_back(world.kind({body}) == physics::BodyKind::puck ? world.radius({body}) : 0.0);
+  return whole;
+}
+
+Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail, const std::function<void()>& when_taken)
+    : settings_(std::move(settings)), mail_(mail), whole_(Whole::of(whole)), validator_(whole), now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts}, before_(now_),
+      division_(cuts.division(settings_.peer_count)) {
+  std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
+  now_.slots = now_.next_number = settings_.peer_count;
+  now_.players = settings_.players;
+  for (const Player& player : now_.players) now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
+  before_ = now_;
+  make_room(now_.slots);
+  std::vector<Arrivals::Body> near;
+  for (std::uint32_t body = 0; body < whole_.body_count; ++body)
+    if (division_.is_near(settings_.number, Box::around(whole.position({body}), whole.half_extent({body})), settings_.halo) || division_.owner_of(whole.position({body})) == settings_.number)
+      near.push_back({body, physics::Portion::state_in(whole, body)});
+  if (settings_.is_mirrored) keep_first_parts(whole);
+  if (when_taken) when_taken();
+  peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
+  peer_->validate_by(validator_);
+  for (const auto& [body, state] : near) peer_->consider(body, state);
+  for (const Key& key : settings_.keys) peer_->press_first(key);
+  for (const Player& player : now_.players)
+    for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
+  if (settings_.is_mirrored) peer_->keep_changes();
+  peer_->begin(settings_.end_of(1));
+}
+
+void Session::make_room(PeerNumber slots) {
+  if (slots <= mirrors_.size()) return;
+  mirrors_.resize(slots);
+  losses_.resize(slots);
+}
+
+void Session::halt(const std::string& what) const {
+  if (is_newcomer_) throw SentAway(what);
+  throw Halt(what);
+}
+
+/// Everybody knows how it begins.
+void Session::keep_first_parts(const physics::World& whole) {
+  for (const PeerNumber peer : now_.members) {
+    if (peer != settings_.number && mirror_of(peer, now_) != settings_.number) continue;
+    PartChange part{.step = 0, .time = 0.0, .is_whole = true, .bodies = {}, .gone = {}, .holds = {}, .keys = {}, .log = {}};
+    for (std::uint32_t body = 0; body < whole_.body_count; ++body)
+      if (division_.owner_of(whole.position({body})) == peer) part.bodies.push_back({body, physics::Portion::state_in(whole, body)});
+    mirrors_[peer].add(std::move(part));
+  }
+}
+
+/// The next one in the ring of those who have zones.
+std::optional<PeerNumber> Session::mirror_of(PeerNumber peer, const State& state) const {
+  std::optional<PeerNumber> first;
+  for (const PeerNumber other : state.cuts.peers()) {
+    if (other == peer) continue;
+    if (other > peer) return other;
+    if (!first) first = other;
+  }
+  return first;
+}
+
+template <class Message>
+Message Session::heard(PeerNumber from) {
+  for (;;) {
+    const std::vector<std::uint8_t> bytes = mail_.receive(from);
+    Message message;
+    if (read(bytes, message)) return message;
+    // Those of whom it tells are no news if we have recovered from their loss.
+    if (hears_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
+  }
+}
+
+/// Likewise, and held against the scene: the states in it are those of that instant [s]. What goes to the own peer, it looks at itself.
+template <class Message>
+Message Session::checked(PeerNumber from, double now) {
+  Message message = heard<Message>(from);
+  if (const std::string fault = validator_.fault_of(message, now); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  return message;
+}
+
+/// Nothing is played any more from the bodies in them, so their contacts are left out.
+Arrivals Session::last_words(PeerNumber from) {
+  Arrivals part = heard<Arrivals>(from);
+  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty()) give_up(from, "peer " + std::to_string(from) + " " + fault);
+  return part;
+}
+
+template FaceOffWord Session::checked<FaceOffWord>(PeerNumber from, double now);
+template Arrivals Session::checked<Arrivals>(PeerNumber from, double now);
+
+/// What `make(to)` makes goes to all members, and what they made is heard.
+template <class Make>
+void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
+  for (const PeerNumber to : now_.members)
+    if (to != settings_.number) mail_.send(to, written(make(to)));
+  if (meanwhile) meanwhile();
+  for (const PeerNumber from : now_.members)
+    if (from != settings_.number) peer_->hear(from, heard<decltype(make(from))>(from));
+  if (!peer_->accusation().empty()) give_up(peer_->accused(), peer_->accusation());
+}
+
+/// Whoever says what cannot be is lost to us.
+void Session::give_up(PeerNumber peer, const std::string& what) const {
+  if (!settings_.is_mirrored) throw ProtocolError(what);
+  throw PeerGone(peer, false, what);
+}
+
+void Session::advance() {
+  for (;;) try {
+      if (must_recover_) recover();
+      if (!is_over()) play_window();
+      return;
+    } catch (const PeerGone& gone) {
+      note_gone(gone.peer(), gone.what(), gone.has_finished());
+    }
+}
+
+void Session::play_window() {
+  const std::uint64_t window = now_.window + 1;
+  while (now_.window < window && !has_left_) play_stretch();
+}
+
+void Session::play_stretch() {
+  peer_->wish_to_leave(wishes_to_leave_);
+  if (settings_.is_mirrored) announce();
+  State next = now_;
+  double next_end = 0.0;
+  const auto enter_next = [&] {
+    next = after_stretch();
+    next_end = stretch_end(next);
+    if (next.zones == now_.zones) return;
+    division_ = next.division();
+    peer_->divide(division_);
+    counters_.shifts += next.slots == now_.slots && next.cuts.peers() == now_.cuts.peers();
+  };
+  // Where nobody can be lost all are there, and whoever carries the mail may have a shorter way, unless there are goals to tell of.
+  const auto agree_all = [&] { settings_.is_mirrored || settings_.goals ? exchange([&](PeerNumber) { return peer_->verdict(); }) : peer::agree(*peer_, settings_.peer_count, mail_); };
+  const auto exchange_all = [&](auto&& make, const std::function<void()>& meanwhile) { exchange(make, meanwhile); };
+  const bool is_cut = peer_->end() < settings_.end_of(now_.window + 1);  // then the window goes on after it
+  WindowHooks hooks = is_cut ? WindowHooks{} : settings_.hooks;
+  hooks.when_final = enter_next;
+  play_steps(*peer_, next_end, exchange_all, agree_all, hooks);
+  if (settings_.goals) face_off(next);
+  // A puck that found no place is due again, where rounding can put that a little before the end of the window.
+  if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
+  if (settings_.is_mirrored) {
+    PartChange change = peer_->change(false);
+    for (const PeerNumber leaver : now_.members)
+      if (!next.has(leaver) && mirror_of(leaver, now_) == settings_.number) {
+        const std::vector<Key> log = mirrors_[leaver].log();
+        change.log.insert(change.log.end(), log.begin(), log.end());
+      }
+    mirror(next, std::move(change));
+  } else {
+    log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
+  }
+  has_left_ = !next.has(settings_.number) || (wishes_to_leave_ && next.members.size() == 1);
+  adopt(std::move(next));
+  is_newcomer_ = false;
+}
+
+/// Who was let in gets a zone, who wished to leave hands its own over, and who had none in this stretch is not waited for any more.
+State Session::after_stretch() const {
+  State next = now_;
+  ++next.step;
+  next.time = peer_->now();
+  next.window += next.time == settings_.end_of(now_.window + 1);
+  count_goals(next);
+  next.members = now_.next_voters();
+  give_zones(next);
+  for (const PeerNumber peer : now_.members) {
+    const std::vector<PeerNumber> zoned = next.cuts.peers();
+    if (next.has(peer) && peer_->verdict_of(peer).leaves && State::is_in(zoned, peer) && zoned.size() > 1) next.cuts = next.cuts.without(peer), ++next.zones;
+  }
+  if (settings_.is_mirrored) admit(next);
+  if (settings_.balance_windows > 0) balance(next);
+  return next;
+}
+
+/// By what all have told all since zones changed last. What differs by chance alone, three standard deviations of a Poisson number, moves nothing.
+void Session::balance(State& next) const {
+  constexpr double tolerance = 1.1, deviations = 3.0;
+  next.events.resize(now_.slots, 0.0);
+  for (const PeerNumber peer : now_.members) next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
+  if (++next.counted_windows < settings_.balance_windows && next.zones == now_.zones) return;
+  const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0), mean = all / static_cast<double>(next.members.size());
+  if (next.zones == now_.zones && mean > 0.0) {
+    auto shifted = next.cuts.balanced(next.events, tolerance + deviations / std::sqrt(mean));
+    if (shifted) next.cuts = std::move(*shifted), ++next.zones;
+  }
+  next.counted_windows = 0;
+  next.events.clear();
+}
+
+/// The own part is kept here and by another, and those of others here, as they are with the step that leads to `next`.
+void Session::mirror(const State& next, PartChange change) {
+  change.step = next.step;
+  mirrors_[settings_.number].add(change);
+  const auto to = next.has(settings_.number) ? mirror_of(settings_.number, next) : std::nullopt;
+  if (to) {
+    if (!change.is_whole && (to != mirror_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
+      change = peer_->change(true);
+      change.step = next.step;
+      change.log = mirrors_[settings_.number].log();
+    }
+    std::vector<std::uint8_t> bytes = written(std::move(change));
+    counters_.mirror_bytes += bytes.size();
+    mail_.send(*to, std::move(bytes));
+  }
+  for (const PeerNumber from : next.members) {
+    if (from == settings_.number || !now_.has(from) || mirror_of(from, next) != settings_.number) continue;
+    auto kept = checked<PartChange>(from, next.time);
+    if (kept.step != next.step || !mirrors_[from].add(std::move(kept))) give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " + std::to_string(next.step));
+  }
+}
+
+void Session::adopt(State next) {
+  for (const PeerNumber peer : now_.members)
+    if (!next.has(peer) && peer != settings_.number) {
+      mail_.part(peer, false);
+      peer_->set_present(peer, false);
+    }
+  make_room(next.slots);
+  if (settings_.is_mirrored && next.has(settings_.number)) greet(next);
+  before_ = std::exchange(now_, std::move(next));
+  std::erase_if(sent_, [&](const Sent& sent) { return sent.step + 2 <= now_.step; });
+}
+
+void Session::press(const Glimpse& seen, const Press& press) {
+  peer_->press(seen.owner, press);
+  if (settings_.is_mirrored) sent_.push_back({now_.step + 1, press});
+}
+
+SessionCounters Session::counters() const {
+  SessionCounters all = counters_;
+  all.peer += peer_->counters();
+  return all;
+}
+
+std::vector<Arrivals> Session::end() {
+  wishes_to_leave_ = false;
+  for (;;) try {
+      if (must_recover_) recover();
+      while (!is_over()) play_window();
+      if (has_left_) return {};
+      Arrivals own = own_bodies(*peer_);
+      own.window = static_cast<std::uint32_t>(now_.window);
+      own.keys = settings_.is_mirrored ? mirrors_[settings_.number].log() : log_;
+      std::vector<Arrivals> parts(now_.slots);
+      for (const PeerNumber to : now_.members)
+        if (to != settings_.number) mail_.send(to, written(own));
+      for (const PeerNumber from : now_.members)
+        if (from != settings_.number) parts[from] = last_words(from);
+      parts[settings_.number] = std::move(own);
+      parts_ = std::move(parts);
+      // Nobody goes before all have all.
+      for (const PeerNumber to : now_.members)
+        if (to != settings_.number) mail_.send(to, written(Arrivals{}));
+      for (const PeerNumber from : now_.members)
+        if (from != settings_.number) heard<Arrivals>(from);
+      return parts_;
+    } catch (const PeerGone& gone) {
+      if (!parts_.empty() && gone.has_finished()) return parts_;
+      note_gone(gone.peer(), gone.what(), gone.has_finished());
+    }
+}
+
+}  // namespace rink::peer

@@ -1,0 +1,400 @@
+// The event loop behind World: bodies at their own last events, one earliest event per body, rest contacts and pressed clusters.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/physics/cell_grid.h"
+#include "game/physics/events/event_schedule.h"
+#include "game/physics/flight/impact_time.h"
+#include "game/physics/engine/journal.h"
+#include "game/physics/large_pages.h"
+#include "game/physics/engine/partner.h"
+#include "game/physics/flight/straight_flight.h"
+#include "game/physics/sum.h"
+#include "game/physics/world.h"
+
+namespace rink::physics {
+
+/// Impacts are looked at together if they come within this time of each other [s]; whether they are one is decided by their gaps.
+constexpr double instant = 1e-9;
+/// Bodies nearer than this take part in a hop [m].
+constexpr double cluster_gap = 2e-6;
+/// The least separation an impulse leaves, relative to the speeds: far above rounding, far below anything seen.
+template <class Real>
+constexpr Real separation_min = 1e-14 * fineness<Real>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// All state is in `Real`; specs are in double, whose values every wider scalar holds exactly.
+template <class Real>
+class BasicEngine {
+  using Vector2 = BasicVector2<Real>;
+  using Motion = BasicMotion<Real>;
+  using WarpedTime = BasicWarpedTime<Real>;
+  using Gap = BasicGap<Real>;
+  using RoundedBox = BasicRoundedBox<Real>;
+  using HalfPlane = BasicHalfPlane<Real>;
+  using RelativeMotion = BasicRelativeMotion<Real>;
+  using EventQueue = BasicEventSchedule<Real>;
+  using Goal = BasicGoal<Real>;
+  using Event = BasicEvent<Real>;
+
+ public:
+  explicit BasicEngine(const WorldSpec& spec);
+
+  BodyId add(BodyKind kind, const Vector2& position, const Vector2& velocity, Real radius, const Vector2& half_extent, Real mass, MaterialId material, Half half, Real spin);
+  void remove(std::uint32_t body);
+  void set_thrust(std::uint32_t bat, const Vector2& acceleration);
+  void place(std::uint32_t puck, const Vector2& position, const Vector2& velocity);
+  std::optional<Goal> advance(Real until);
+
+  Motion motion(std::uint32_t body) const;
+  bool is_free(const Vector2& centre, const RoundedBox& shape) const;
+  Real kinetic_energy() const;
+  Vector2 momentum() const;
+  Real max_overlap() const;
+  Real spin(std::uint32_t body) const { return is_rough() ? spins_[body] : 0.0; }
+  Real work_of_thrust() const;
+  Real dissipated() const;
+  std::uint64_t hash() const;
+  std::vector<std::uint8_t> save() const;
+  static std::unique_ptr<BasicEngine> restore(std::span<const std::uint8_t> bytes);
+
+ private:
+  friend class BasicWorld<Real>;
+  friend class Portion;
+
+  enum Flag : std::uint8_t { removed = 1, out_of_play = 2, curved = 4, held_x = 8, held_y = 16, frozen = 32, touched = 64, pending = 128 };
+  static constexpr std::uint8_t gone = removed | out_of_play, held = held_x | held_y;
+  static std::uint8_t held_along(int axis) { return axis == 0 ? held_x : held_y; }
+  enum Mouth : std::uint8_t { no_mouth, left_mouth, right_mouth };
+
+  /// What an impact of two pucks reads and writes: one cache line.
+  struct alignas(64) Body : Flight<Real> {
+    Real inverse_mass;
+    std::uint32_t version;
+    BodyKind kind;
+    MaterialId material;
+    std::uint8_t flags;
+    std::uint8_t mouth;
+  };
+  struct Build {
+    Real mass, inverse_mass;
+    Vector2 half_extent;  // of the rectangle itself: 0 for discs
+    Vector2 thrust;
+    Half half;
+  };
+  struct Law {
+    Vector2 acceleration, drag;
+  };
+  /// How often something came at the last instant at which it did.
+  struct Tally {
+    Real instant = -1.0;
+    std::uint32_t count = 0;
+    /// Once more at `time`; answers how often now.
+    std::uint32_t add(Real time) {
+      count = instant == time ? count + 1 : 1;
+      instant = time;
+      return count;
+    }
+  };
+  /// How densely impacts follow each other; part of the physical history.
+  struct Rhythm {
+    Real window_start = -1.0, last_hop = -1.0;
+    std::uint32_t impacts = 0, hops = 0;
+    Tally repeats;   // impacts where bodies may start in overlap, attempts at rest of pucks that friction slows
+    Tally meetings;  // impacts that are not simple ones, at instants within roundings of the clock
+  };
+  struct Slot {
+    Real impact_time, crossing_time;
+    Partner partner;
+    std::uint32_t partner_version;
+    CellGrid::Direction direction;  // of the crossing
+    bool is_tied;  // another impact of the body comes within the instant
+  };
+  static constexpr Slot no_event{std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity(), partner::none, 0, CellGrid::left, false};
+  using Hold = BasicHold<Real>;
+  struct Contact {
+    std::uint32_t body;
+    Partner partner;
+    Gap gap;  // normal from partner to body
+  };
+  static constexpr std::uint32_t fixed_place = 0xffffffff;
+  /// Two bodies that touch, or a body and a fixed part; `body` and `other` are places in joint_, `fixed_place` for what cannot move.
+  struct Touch {
+    std::uint32_t body, other;
+    Partner partner;
+    Vector2 normal;
+    Real restitution;
+    Real wanted;        // least speed of separation afterwards [m/s]
+    Real impulse;       // of the problem at hand [kg m/s]
+    bool is_at_hand;    // the impact that called for the others
+    bool has_pushed;
+  };
+
+  // engine.cpp: bodies and the loop
+  bool is_body(Partner p) const { return p < partner::field_parts; }
+  bool is_fixed(Partner p) const { return !is_body(p) || builds_[p].inverse_mass == 0.0; }
+  bool is_gone(std::uint32_t body) const { return (bodies_[body].flags & gone) != 0; }
+  Real inverse_mass(Partner p) const { return is_body(p) ? builds_[p].inverse_mass : 0.0; }
+  Motion at(std::uint32_t body, Real time) const { return motion(body).at(time); }
+  RoundedBox shape_of(std::uint32_t a, std::uint32_t b) const;
+  HalfPlane plane_of(std::uint32_t body, Partner wall) const;
+  Vector2 goal_edge(Partner edge) const;
+  Real reach_of(std::uint32_t body) const;
+  void rebuild_grid();
+  void enter_mouth_if_inside(std::uint32_t body);
+  void require_prediction(std::uint32_t body);
+  void predict_pending();
+  bool is_left_alone(std::uint32_t body) const;
+  void cross_cell(std::uint32_t body);
+  void process(std::uint32_t body, Real time);
+  void look_ahead();
+  void settle();
+  void count_event(Real time);
+  void score(std::uint32_t body, Real time);
+  void stop(std::uint32_t body, Real time);
+  /// Counts the event, and records it if it is wanted.
+  void note(EventKind kind, Real time, std::uint32_t body, Partner other = partner::none) {
+    ++counters_.of(kind);
+    if (records_events_) events_.push_back({time, kind, BodyId{body}, is_body(other) ? std::optional(BodyId{other}) : std::nullopt});
+  }
+
+  // engine_state.cpp: rewriting last-event states
+  void rebase(std::uint32_t body, Real time);
+  void rebase_companions(std::uint32_t body, Real time);
+  void write_law(std::uint32_t body);
+  void set_law(std::uint32_t body, int axis, Real acceleration, Real drag);
+  Real own_drag(std::uint32_t body) const { return bodies_[body].kind == BodyKind::bat ? spec_.bat_drag : spec_.puck_drag; }
+  void touch(std::uint32_t body);
+  void wake(std::uint32_t body, Real time);
+
+  // engine_journal.cpp: what a portion of a world keeps of a window (portion.h)
+  void keep(std::uint32_t body) {
+    if (journal_ != nullptr) keep_state(body);
+  }
+  void keep_state(std::uint32_t body);
+  void enter_changes();
+  BasicBodyState<Real> state_of(std::uint32_t body) const;
+  std::uint64_t conditions_of(std::uint32_t body) const;
+
+  // engine_friction.cpp
+  bool is_slowed() const { return spec_.puck_friction > 0.0; }
+  bool is_slowed(std::uint32_t body) const { return is_slowed() && bodies_[body].kind == BodyKind::puck; }
+  bool is_sliding(std::uint32_t body) const { return bodies_[body].vx != 0.0 || bodies_[body].vy != 0.0; }
+  Real own_push(std::uint32_t body, int axis) const { return is_slowed() ? builds_[body].thrust[axis] + slowing_[body][axis] : builds_[body].thrust[axis]; }
+  void slide_touched();
+  void slide(std::uint32_t body);
+  std::optional<int> pushed_axis(std::uint32_t body) const;
+  bool is_pushed_twice(int axis, const std::vector<std::uint32_t>& members) const;
+  void face_friction(const std::vector<std::uint32_t>& members);
+  bool has_sliders(int axis, const std::vector<std::uint32_t>& members) const;
+  Real aim_friction(int axis, const std::vector<std::uint32_t>& members, Real time);
+  void calm(int axis, const std::vector<std::uint32_t>& members);
+  Vector2 friction_along(const Vector2& velocity) const;
+  Real speed_lost(Real speed, Real push, Real drag) const;
+
+  // engine_prediction.cpp
+  void predict(std::uint32_t body);
+  std::uint32_t begin_prediction(std::uint32_t body);
+  std::uint32_t predict_counting(std::uint32_t body);
+  void predict_field(std::uint32_t body);
+  void predict_flight(std::uint32_t body);
+  void predict_side_wall(std::uint32_t body);
+  void predict_end_wall(std::uint32_t body);
+  void predict_curved_walls(std::uint32_t body);
+  void predict_mouth(std::uint32_t body);
+  void predict_pairs(std::uint32_t body, std::uint32_t count);
+  template <bool counts>
+  std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near, std::uint32_t count);
+  void predict_pair(std::uint32_t body, std::uint32_t other);
+  void predict_curved_pair(std::uint32_t body, std::uint32_t other);
+  void predict_release(std::uint32_t body);
+  void predict_curved_crossing(std::uint32_t body);
+  void offer(std::uint32_t body, Real time, Partner partner);
+  void enqueue(std::uint32_t body);
+  Real real_time(Real start, Real warped) const;
+
+  // engine_impact.cpp
+  Vector2 position_at(std::uint32_t body, Real time) const;
+  Contact contact(std::uint32_t body, Partner partner, Real time) const;
+  Vector2 velocity_of(Partner p) const;
+  Vector2 acceleration_of(Partner p) const;
+  Real restitution(std::uint32_t body, Partner partner) const;
+  bool collide_freely(std::uint32_t body, Partner partner, Real time);
+  void collide(std::uint32_t body, Partner partner, Real time);
+  void collide_ordered(std::uint32_t body, Partner partner, Real time);
+  void bounce(const Contact& contact, Real restitution, Real time);
+  bool is_rough() const { return spec_.surface_friction.has_value(); }
+  void rub(const Contact& contact, Real normal_impulse);
+  void count_impact(std::uint32_t body, Partner partner, Real time);
+  void note_impact(std::uint32_t body, Real time);
+
+  // engine_simultaneous.cpp
+  bool is_crowded(std::uint32_t body, Partner partner) const;
+  bool is_endless() const;
+  bool collide_together(const Contact& contact, Real time);
+  bool gather_touching(const Contact& contact, Real time);
+  void look_at_touching(const Contact& contact, Real time);
+  void note_looked_at();
+  bool has_company(std::uint32_t body, Partner partner, Real time);
+  void add_touch(std::uint32_t place, Partner partner, const Contact& at_hand, Real time);
+  std::uint32_t place_in_joint(std::uint32_t body, Real time);
+  Real parting(const Touch& touch, const std::vector<Vector2>& velocities) const;
+  Real joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const;
+  Real joint_energy() const { return 0.5 * joint_product(joint_velocities_, joint_velocities_); }
+  Real joint_speed() const;
+  bool solve_joint();
+  bool propagate();
+  bool yield_as_one(Real restitution_max);
+  bool come_to_rest();
+  void part_what_rounding_closes();
+  bool find_pushing();
+  bool push_until_blocked(std::uint32_t touch);
+  Real orthogonalise(const Touch& touch);
+  void append_pushing(std::uint32_t touch, Real length);
+  void drop_pushing(std::size_t place);
+  void reflect(bool as_wanted, Real restitution_max = 1.0);
+  void apply_joint(Real time);
+
+  // engine_rest.cpp
+  bool can_rest(const Contact& contact) const;
+  void rest(const Contact& contact, Real time);
+  void share(int axis, const std::vector<std::uint32_t>& members, Real time);
+  void solve_forces(int axis, const std::vector<std::uint32_t>& members, Real speed, bool only_push);
+  Real resist(const std::vector<std::uint32_t>& members, int axis);
+  void share_part(int axis, const std::vector<std::uint32_t>& part, Real time);
+  void set_pull_times(int axis, const std::vector<std::uint32_t>& part, Real terminal_speed, Real drag, Real time);
+  bool is_in_group(const Hold& hold, int axis, const std::vector<std::uint32_t>& members) const;
+  bool is_group_fixed(int axis, const std::vector<std::uint32_t>& members) const;
+  std::vector<std::uint32_t> companions(std::uint32_t body, std::uint8_t axes) const;
+  void dissolve(std::uint32_t body, int axis, Real time);
+  void release(std::uint32_t body, Real time);
+  Real slide_time(const Hold& hold) const;
+  bool would_push_twice(const Contact& contact) const;
+  bool are_held(std::uint32_t a, std::uint32_t b) const;
+  void note_release(const Hold& hold, Real time) { is_fixed(hold.low) ? note(EventKind::release, time, hold.high, hold.low) : note(EventKind::release, time, hold.low, hold.high); }
+
+  // engine_cluster.cpp
+  template <class Visit>
+  void visit_partners(std::uint32_t body, Visit&& visit);
+  bool is_pressed_hard(std::uint32_t body, Partner partner, Real approach, Real time) const;
+  bool hop(const Contact& contact, Real approach, Real pressing, Real time);
+  void gather(const Contact& contact, Real speed_max, Real time);
+  void add_contact(std::uint32_t place, Partner partner, Real speed_max, Real time);
+  std::uint32_t place_in_cluster(std::uint32_t body, Real time);
+  bool freeze(Real thrust_max);
+  void part_cluster(Real separation, Real gain_max);
+  Real turning() const;
+  Real joint_thrust() const;
+  void solve_cluster(Real separation);
+  bool give_way();
+  bool freeze_loosely(const Contact& contact, Real speed_max, Real time);
+  void hold_jammed();
+  void sweep_cluster(Real separation, Real friction = 0.0);
+  Real resist_in_cluster(Real friction);
+  Real still_speed() const;
+  Real glancing_speed(Real thrust_max, Real pressing, Real speed) const;
+
+  // engine_energy.cpp: the books of energy, of worlds that keep them
+  struct Expense {
+    Real work, loss;  // J
+  };
+  Real energy_of(std::uint32_t body) const;
+  Expense expense_until(std::uint32_t body, Real time) const;
+  void enter_expense(std::uint32_t body, Real time);
+  void enter_impacts();
+
+  // engine_overlap.cpp
+  void count_meeting(const Contact& contact);
+  std::uint32_t meetings(const Contact& contact) const;
+  bool is_hemmed_in(const Contact& contact) const;
+  bool is_beyond_hope(const Contact& contact) const;
+  bool is_stuck(const Contact& contact, Real time);
+  void stop_around(const Contact& contact, Real time);
+  void stop_cluster();
+
+  // engine_snapshot.cpp
+  template <class Stream>
+  bool exchange_state(Stream& stream);
+  bool is_sound() const;
+  void rebuild_from_state();
+
+  WorldSpec spec_;
+  Real now_ = 0.0;
+  bool is_played_ = false;  // advance() has been to now_: what happens to bodies from outside at this instant takes effect beyond it
+  Real tolerance_;  // rounding error of an offset [m]
+  Real puck_drag_;
+  Real contact_time_;  // s
+  Real rest_speed_;    // pressed contacts that close more slowly come to rest [m/s]
+  LargeArray<Body> bodies_;
+  LargeArray<Slot> slots_;
+  std::vector<Law> laws_;
+  std::vector<Build> builds_;
+  std::vector<Rhythm> rhythms_;
+  std::vector<std::uint32_t> jams_;  // number of the jam that a frozen body belongs to
+  std::vector<Real> rest_times_;     // of worlds with friction: when it will have brought the body to rest
+  std::vector<Vector2> slowing_;     // likewise: its part in the acceleration of the body
+  std::vector<Real> spins_;          // of worlds with surface friction [rad/s]
+  std::vector<Hold> holds_;
+  CellGrid grid_;
+  EventQueue queue_;
+  Real reach_ = 0.0;               // largest half extent of any body [m]
+  std::uint32_t grid_capacity_ = 0;  // bodies that the grid was made for
+  std::uint32_t jam_count_ = 0;
+  bool has_free_impacts_;                  // decided by the spec: collide_freely() may serve
+  std::uint32_t curved_count_ = 0;         // bodies not in straight flight
+  std::vector<std::uint32_t> candidates_;  // near the body that is being predicted
+  bool is_everything_pending_ = false;
+  std::array<std::int64_t, 4> looked_ahead_{};  // the last bucket of the queue that each step of look_ahead() has seen
+  std::vector<std::uint32_t> touched_, pending_, frozen_;
+  std::vector<std::uint32_t> near_;
+  std::vector<Vector2> cluster_friction_;  // impulses per mass
+  std::vector<Real> accelerations_;
+  std::vector<std::uint32_t> joint_;              // bodies of the cluster or joint impact at hand
+  std::vector<Vector2> joint_velocities_, trial_velocities_, velocities_before_;
+  std::vector<Touch> touches_;
+  std::vector<std::uint32_t> closing_, pushing_;  // touches of the problem at hand, and those of them that push
+  std::vector<std::vector<Vector2>> basis_;       // what those that push can change, orthonormal in the metric of the masses
+  std::vector<std::vector<Real>> columns_;        // each one's effect in terms of the basis: a triangle
+  std::vector<Vector2> direction_;                // of the touch that is looked at: the part of its effect beyond the basis,
+  std::vector<Real> column_, share_;              // and the part within
+  Real instant_begin_ = -1.0;                   // of the events counted as coming at once
+  std::uint64_t events_at_once_ = 0;
+  Real gap_max_ = cluster_gap;                  // up to which a contact belongs to a cluster
+  std::uint32_t blocked_ = 0;                   // the touch at which find_pushing() failed
+  bool is_hopeless_ = false;                    // no joint impact could be solved at this instant
+  std::optional<Goal> goal_;
+  Counters counters_;
+  BasicSum<Real> introduced_, work_, loss_;
+  std::vector<Real> energies_;       // of the bodies in touched_, before what happens to them now
+  bool records_events_ = false;
+  std::vector<Event> events_;
+  BasicJournal<Real>* journal_ = nullptr;
+};
+using Engine = BasicEngine<double>;
+
+/// Everybody that `body` may touch, in an order that depends on ids alone: bodies near it, walls, and whatever else of the field concerns it.
+template <class Real>
+template <class Visit>
+void BasicEngine<Real>::visit_partners(std::uint32_t body, Visit&& visit) {
+  near_.clear();
+  grid_.around(grid_.column_of(body), grid_.row_of(body), -1, 1, -1, 1, [&](std::uint32_t other) {
+    if (other != body) near_.push_back(other);
+  });
+  std::sort(near_.begin(), near_.end());
+  for (const std::uint32_t other : near_) visit(other);
+  const bool is_in_mouth = bodies_[body].mouth != no_mouth;
+  for (Partner wall = partner::wall_left; wall <= partner::wall_top; ++wall)
+    if (!(is_in_mouth && wall <= partner::wall_right)) visit(wall);
+  if (spec_.field.bats_keep_to_half && bodies_[body].kind == BodyKind::bat && builds_[body].half != Half::both) visit(partner::halfway);
+  if (spec_.field.goal_width > 0.0 && bodies_[body].kind == BodyKind::puck)
+    for (Partner edge = partner::edge_left_low; edge <= partner::edge_right_high; ++edge) visit(edge);
+}
+
+}  // namespace rink::physics

@@ -1,0 +1,375 @@
+// Contacts that close at the same instant: one problem, not a sequence, so that nobody's number decides who is hit first.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "game/physics/flight/discs_near.h"
+#include "game/physics/engine/engine.h"
+
+namespace rink::physics {
+
+namespace {
+
+constexpr std::size_t joint_max = 512;        // bodies
+constexpr std::size_t rounds_min = 32;        // before all yield as one; an impulse through a chain needs one round per link,
+constexpr std::size_t rounds_max = 128;       // so there are more where more touch
+constexpr int cycles_max = 4;                 // of rounds and yielding
+constexpr std::uint64_t endless_events = 64;  // at one instant: then too
+/// Gaps within so many roundings of an offset are none.
+constexpr double touch_roundings = 16.0;
+/// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is wanted than a quarter of it.
+template <class Real>
+constexpr Real rest_of_closing = 4e-13 * fineness<Real>;
+/// A contact of whose effect no more than this is left by those of others, relative to it, is implied by them.
+template <class Real>
+constexpr Real superfluous = 1e-12 * fineness<Real>;
+
+}  // namespace
+
+/// Whether another impact may come at the instant at hand. Never misses one: an impact is either the first of its body, and thus in the queue, or hidden behind that one.
+template <class Real>
+bool BasicEngine<Real>::is_crowded(std::uint32_t body, Partner p) const {
+  return slots_[body].is_tied || (is_body(p) && slots_[p].is_tied) || is_endless() || queue_.is_followed_within(instant);
+}
+
+/// Whether so many events have come at this instant that all that touch shall yield as one.
+template <class Real>
+bool BasicEngine<Real>::is_endless() const { return events_at_once_ % endless_events == 0; }
+
+/// The impact at hand together with all others that close at this instant among bodies that touch, directly or through others. False if there are none, or if no solution
+/// was found that keeps the energy; then nothing has changed, and no other is looked for until the instant is over.
+template <class Real>
+bool BasicEngine<Real>::collide_together(const Contact& c, Real time) {
+  if (is_rough() || is_hopeless_) return false;
+  const bool is_joint = gather_touching(c, time) || is_endless();
+  note_looked_at();
+  if (!is_joint) return false;
+  velocities_before_ = joint_velocities_;
+  const Real energy = joint_energy();
+  is_hopeless_ = !solve_joint() || !(joint_energy() <= energy * (1.0 + 1e-12 * fineness<Real>));
+  if (is_hopeless_ && journal_ != nullptr) journal_->was_hopeless = true;
+  if (is_hopeless_) return false;
+  ++counters_.joint_impacts;
+  apply_joint(time);
+  return true;
+}
+
+/// An impact that comes alone here would be joint if any of those who touch were hit at this instant, however far away, by somebody whom this world does not have. So it
+/// concerns all of them, and the journal says so; nothing else changes.
+template <class Real>
+void BasicEngine<Real>::look_at_touching(const Contact& c, Real time) {
+  if (is_rough() || is_hopeless_ || !has_company(c.body, c.partner, time)) return;
+  gather_touching(c, time);
+  note_looked_at();
+}
+
+template <class Real>
+void BasicEngine<Real>::note_looked_at() {
+  if (journal_ != nullptr) journal_->looked_at.insert(journal_->looked_at.end(), joint_.begin(), joint_.end());
+}
+
+/// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
+template <class Real>
+bool BasicEngine<Real>::has_company(std::uint32_t body, Partner p, Real time) {
+  candidates_.resize(grid_.collected_max());
+#if defined(__SSE2__)
+  // In a gas nobody does, and to count who is near at all, posts among them, takes a third of what it takes to ask who they are.
+  if constexpr (std::is_same_v<Real, double>) {
+    const auto is_alone = [&](std::uint32_t one, std::uint32_t two) {
+      const std::uint32_t count = grid_.collect(one, candidates_.data()), fillers = (0u - count) & 3u;
+      const Body &a = bodies_[one], &b = bodies_[two];
+      const double ahead_a = std::max(0.0, time - a.time), ahead_b = std::max(0.0, time - b.time), ax = a.x + a.vx * ahead_a, ay = a.y + a.vy * ahead_a;
+      const double x = b.x + b.vx * ahead_b - ax, y = b.y + b.vy * ahead_b - ay, touching = a.radius + b.radius + 0.5 * clear_of_touching;
+      return x * x + y * y <= touching * touching && count_near_in_fours(bodies_.data(), candidates_.data(), count, one, ax, ay, time, a.radius + clear_of_touching) == 2 + fillers;
+    };
+    // Bats are on curves, always.
+    if (has_fours && curved_count_ == 0 && puck_drag_ == 0.0 && !is_fixed(p) && is_alone(body, p) && is_alone(p, body)) return false;
+  }
+#endif
+  const auto has_third = [&](std::uint32_t one, Partner two) {
+    const std::uint32_t count = grid_.collect(one, candidates_.data());
+    const Body& a = bodies_[one];
+    const bool is_straight = (a.flags & curved) == 0 && a.kind == BodyKind::puck && puck_drag_ == 0.0;
+    const Real ahead = std::max<Real>(0.0, time - a.time), ax = a.x + a.vx * ahead, ay = a.y + a.vy * ahead, least = a.radius + Real(clear_of_touching);
+    for (const std::uint32_t *other = candidates_.data(), *end = other + count; other != end; ++other) {
+      const Body& b = bodies_[*other];
+      const bool is_pair_straight = is_straight && (b.flags & curved) == 0 && b.kind == BodyKind::puck;
+      const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed - ax, y = b.y + b.vy * elapsed - ay, reach = b.radius + least;
+      if ((is_pair_straight && x * x + y * y > reach * reach) || *other == one || *other == two || is_fixed(*other)) continue;
+      if (is_pair_straight || contact(one, *other, time).gap.distance <= Real(clear_of_touching)) return true;
+    }
+    return false;
+  };
+  return has_third(body, p) || (!is_fixed(p) && has_third(p, body));
+}
+
+template <class Real>
+bool BasicEngine<Real>::solve_joint() {
+  if (is_endless() && !yield_as_one(1.0)) return false;
+  if (!propagate() && !come_to_rest()) return false;
+  part_what_rounding_closes();
+  return true;
+}
+
+template <class Real>
+std::uint32_t BasicEngine<Real>::place_in_joint(std::uint32_t body, Real time) {
+  const auto found = std::find(joint_.begin(), joint_.end(), body);
+  if (found != joint_.end()) return static_cast<std::uint32_t>(found - joint_.begin());
+  joint_.push_back(body);
+  joint_velocities_.push_back(at(body, time).velocity);
+  return static_cast<std::uint32_t>(joint_.size() - 1);
+}
+
+template <class Real>
+void BasicEngine<Real>::add_touch(std::uint32_t place, Partner p, const Contact& at_hand, Real time) {
+  const std::uint32_t body = joint_[place];
+  const Contact c = contact(body, p, time);
+  const bool is_at_hand = (body == at_hand.body && p == at_hand.partner) || (p == at_hand.body && body == at_hand.partner);
+  const Real rounding = tolerance_ + std::numeric_limits<Real>::epsilon() * time * joint_velocities_[place].norm();
+  if (!is_at_hand && c.gap.distance > touch_roundings * rounding) return;
+  std::uint32_t other = fixed_place;
+  if (!is_fixed(p)) {
+    if (joint_.size() >= joint_max && std::find(joint_.begin(), joint_.end(), p) == joint_.end()) return;
+    other = place_in_joint(p, time);
+    if (other < place) return;  // known from the other side
+  }
+  touches_.push_back({place, other, p, c.gap.normal, restitution(body, p), 0.0, 0.0, is_at_hand, false});
+}
+
+/// All bodies that touch those of `c`, directly or through others, in an order that depends on ids alone. False if no other contact among them closes now.
+template <class Real>
+bool BasicEngine<Real>::gather_touching(const Contact& c, Real time) {
+  joint_.clear();
+  joint_velocities_.clear();
+  touches_.clear();
+  place_in_joint(c.body, time);
+  if (!is_fixed(c.partner)) place_in_joint(c.partner, time);
+  for (std::uint32_t place = 0; place < joint_.size(); ++place)
+    visit_partners(joint_[place], [&](Partner p) { add_touch(place, p, c, time); });
+  // Slower than this, the time of an impact is too uncertain to tell whether it belongs to the instant.
+  const Real slowest = 2.0 * touch_roundings * tolerance_ / Real(instant);
+  return std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) { return !touch.is_at_hand && -parting(touch, joint_velocities_) > slowest; });
+}
+
+/// The speed at which the two sides part in a field of velocities: also the field's product, weighed by the masses, with the one that an impulse of 1 causes.
+template <class Real>
+Real BasicEngine<Real>::parting(const Touch& touch, const std::vector<Vector2>& velocities) const {
+  const Vector2 there = touch.other == fixed_place ? Vector2(0.0, 0.0) : velocities[touch.other];
+  return touch.normal.dot(velocities[touch.body] - there);
+}
+
+template <class Real>
+Real BasicEngine<Real>::joint_product(const std::vector<Vector2>& a, const std::vector<Vector2>& b) const {
+  Real sum = 0.0;
+  for (std::size_t place = 0; place < joint_.size(); ++place) sum += builds_[joint_[place]].mass * a[place].dot(b[place]);
+  return sum;
+}
+
+template <class Real>
+Real BasicEngine<Real>::joint_speed() const {
+  Real speed = 0.0;
+  for (const Vector2& velocity : joint_velocities_) speed = std::max(speed, velocity.norm());
+  return speed;
+}
+
+/// Rounds of impacts without time between them: in each, all contacts that close are one problem, and those that do not stay out (Smith et al. 2012). Where they do not end
+/// (a light ball between heavy ones, collapse), all that touch yield as one now and then. Answers whether that comes to an end.
+template <class Real>
+bool BasicEngine<Real>::propagate() {
+  const std::size_t rounds = std::min(rounds_min + 2 * touches_.size(), rounds_max);
+  for (int cycle = 0; cycle < cycles_max; ++cycle) {
+    for (std::size_t round = 0; round < rounds; ++round) {
+      const Real speed = joint_speed();
+      closing_.clear();
+      for (std::uint32_t i = 0; i < touches_.size(); ++i) {
+        const Real approach = -parting(touches_[i], joint_velocities_);
+        touches_[i].wanted = std::max(touches_[i].restitution * approach, separation_min<Real> * speed);
+        if (approach > rest_of_closing<Real> * speed) closing_.push_back(i);
+      }
+      if (closing_.empty()) return true;
+      if (!find_pushing()) return false;
+      reflect(true);
+    }
+    if (!yield_as_one(1.0)) return false;
+  }
+  return false;
+}
+
+/// Moreau's law of impact: of the velocities v = T + N, where T is the nearest that close no contact, becomes T - e N. T and N are at right angles in the metric of the
+/// masses, so that energy is kept for e = 1 and never grows. e is the least restitution of those that push, at most `restitution_max`.
+template <class Real>
+bool BasicEngine<Real>::yield_as_one(Real restitution_max) {
+  closing_.resize(touches_.size());
+  std::iota(closing_.begin(), closing_.end(), 0u);
+  for (Touch& touch : touches_) touch.wanted = 0.0;
+  if (!find_pushing()) return false;
+  reflect(false, restitution_max);
+  return true;
+}
+
+/// The end of what loses energy without end. Not for what loses none.
+template <class Real>
+bool BasicEngine<Real>::come_to_rest() {
+  const bool is_lossless = std::all_of(touches_.begin(), touches_.end(), [](const Touch& touch) { return touch.restitution == 1.0; });
+  return !is_lossless && yield_as_one(0.0);
+}
+
+/// What is left of closing would be the next event.
+template <class Real>
+void BasicEngine<Real>::part_what_rounding_closes() {
+  for (std::size_t round = 0; round < rounds_min; ++round) {
+    const Real speed = joint_speed();
+    closing_.clear();
+    for (std::uint32_t i = 0; i < touches_.size(); ++i)
+      if (parting(touches_[i], joint_velocities_) < 0.0) touches_[i].wanted = separation_min<Real> * speed, closing_.push_back(i);
+    if (closing_.empty() || !find_pushing()) return;
+    for (std::size_t place = 0; place < joint_.size(); ++place) joint_velocities_[place] = trial_velocities_[place];
+  }
+}
+
+/// The nearest velocities, in the metric of the masses, that part all of `closing_` as fast as wanted, into `trial_velocities_`, and who pushes for it: the dual method of
+/// Goldfarb and Idnani (Math. Programming 27, 1983). `basis_` is made orthonormal in that metric, which bears any ratio of masses.
+template <class Real>
+bool BasicEngine<Real>::find_pushing() {
+  trial_velocities_ = joint_velocities_;
+  pushing_.clear();
+  blocked_ = fixed_place;
+  for (const std::uint32_t i : closing_) touches_[i].impulse = 0.0;
+  for (std::size_t steps_left = 20 * closing_.size() + 20; steps_left > 0;) {
+    Real most = 0.25 * rest_of_closing<Real> * joint_speed();
+    std::uint32_t next = fixed_place;
+    for (const std::uint32_t i : closing_) {
+      const Real lacking = touches_[i].wanted - parting(touches_[i], trial_velocities_);
+      if (lacking > most && std::find(pushing_.begin(), pushing_.end(), i) == pushing_.end()) most = lacking, next = i;
+    }
+    if (next == fixed_place) return true;
+    while (!push_until_blocked(next))
+      if (--steps_left == 0) return false;
+    if (touches_[next].impulse == 0.0) return blocked_ = next, false;
+  }
+  return false;
+}
+
+/// Lets the contact push harder until it parts as wanted, or until another one of those that push need not push any more and is dropped. Whether the former was reached, or
+/// nothing can be (then its impulse is 0).
+template <class Real>
+bool BasicEngine<Real>::push_until_blocked(std::uint32_t next) {
+  Touch& touch = touches_[next];
+  const std::size_t count = pushing_.size();
+  const Real own = orthogonalise(touch), length = joint_product(direction_, direction_);
+  share_.resize(count);
+  for (std::size_t row = count; row-- > 0;) {
+    Real sum = column_[row];
+    for (std::size_t k = row + 1; k < count; ++k) sum -= columns_[k][row] * share_[k];
+    share_[row] = sum / columns_[row][row];
+  }
+  const bool is_implied = length <= superfluous<Real> * superfluous<Real> * own;
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  Real step = is_implied ? infinity : (touch.wanted - parting(touch, trial_velocities_)) / length;
+  std::size_t blocking = count;
+  for (std::size_t k = 0; k < count; ++k)
+    if (share_[k] > 0.0 && touches_[pushing_[k]].impulse < step * share_[k]) step = touches_[pushing_[k]].impulse / share_[k], blocking = k;
+  if (step == infinity) return touch.impulse = 0.0, true;
+  for (std::size_t k = 0; k < count; ++k) touches_[pushing_[k]].impulse = std::max<Real>(0.0, touches_[pushing_[k]].impulse - step * share_[k]);
+  touch.impulse += step;
+  if (!is_implied)
+    for (std::size_t place = 0; place < joint_.size(); ++place) trial_velocities_[place] += step * direction_[place];
+  if (blocking < count) return drop_pushing(blocking), false;
+  append_pushing(next, std::sqrt(length));
+  return true;
+}
+
+/// The effect of an impulse of 1, less what those that push already can do: into `direction_`, and their shares into `column_`. Twice is enough (Kahan, in Parlett 1980).
+/// Answers the square of the effect's length.
+template <class Real>
+Real BasicEngine<Real>::orthogonalise(const Touch& touch) {
+  direction_.assign(joint_.size(), Vector2(0.0, 0.0));
+  direction_[touch.body] = inverse_mass(joint_[touch.body]) * touch.normal;
+  if (touch.other != fixed_place) direction_[touch.other] = -inverse_mass(joint_[touch.other]) * touch.normal;
+  const Real own = parting(touch, direction_);
+  column_.assign(pushing_.size(), 0.0);
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t k = 0; k < pushing_.size(); ++k) {
+      const Real share = joint_product(basis_[k], direction_);
+      column_[k] += share;
+      for (std::size_t place = 0; place < joint_.size(); ++place) direction_[place] -= share * basis_[k][place];
+    }
+  return own;
+}
+
+template <class Real>
+void BasicEngine<Real>::append_pushing(std::uint32_t touch, Real length) {
+  const std::size_t count = pushing_.size();
+  if (basis_.size() <= count) basis_.emplace_back(), columns_.emplace_back();
+  for (Vector2& part : direction_) part /= length;
+  basis_[count] = direction_;
+  column_.push_back(length);
+  columns_[count] = column_;
+  pushing_.push_back(touch);
+}
+
+template <class Real>
+void BasicEngine<Real>::drop_pushing(std::size_t place) {
+  touches_[pushing_[place]].impulse = 0.0;
+  const std::vector<std::uint32_t> others(pushing_.begin() + static_cast<std::ptrdiff_t>(place) + 1, pushing_.end());
+  pushing_.resize(place);
+  for (const std::uint32_t other : others) {
+    orthogonalise(touches_[other]);
+    append_pushing(other, std::sqrt(joint_product(direction_, direction_)));
+  }
+}
+
+/// The new velocities, given who pushes: the part along `basis_` turns into -e times itself, which keeps energy to rounding for e = 1 whatever the masses; then, if
+/// `as_wanted`, what is wanted beyond that is added.
+template <class Real>
+void BasicEngine<Real>::reflect(bool as_wanted, Real restitution_max) {
+  Real least = restitution_max;
+  for (const std::uint32_t i : pushing_) least = std::min(least, touches_[i].restitution), touches_[i].has_pushed = true;
+  trial_velocities_ = joint_velocities_;
+  share_.assign(pushing_.size(), 0.0);
+  for (std::size_t k = 0; k < pushing_.size(); ++k) {
+    const Touch& touch = touches_[pushing_[k]];
+    Real beyond = as_wanted ? touch.wanted + least * parting(touch, joint_velocities_) : 0.0;
+    for (std::size_t j = 0; j < k; ++j) beyond -= columns_[k][j] * share_[j];
+    share_[k] = beyond / columns_[k][k];
+    const Real change = share_[k] - (1.0 + least) * joint_product(basis_[k], joint_velocities_);
+    for (std::size_t place = 0; place < joint_.size(); ++place) trial_velocities_[place] += change * basis_[k][place];
+  }
+  joint_velocities_ = trial_velocities_;
+}
+
+/// Writes the velocities back. Rest contacts of whoever was pushed end as in any impact, and every contact that pushed counts as one.
+template <class Real>
+void BasicEngine<Real>::apply_joint(Real time) {
+  for (const Touch& touch : touches_) {
+    if (!touch.has_pushed) continue;
+    const std::uint32_t body = joint_[touch.body];
+    if (!touch.is_at_hand) {
+      if (is_fixed(touch.partner)) count_impact(body, touch.partner, time);
+      else count_impact(std::min(body, touch.partner), std::max(body, touch.partner), time);
+      note_impact(body, time);
+      if (!is_fixed(touch.partner)) note_impact(touch.partner, time);
+    }
+    for (const Partner p : {body, touch.partner}) {
+      if (is_fixed(p)) continue;
+      wake(p, time);
+      rebase_companions(p, time);
+      for (int axis = 0; axis < 2; ++axis)
+        if (touch.normal[axis] != 0.0) dissolve(p, axis, time);
+    }
+  }
+  for (std::size_t place = 0; place < joint_.size(); ++place) {
+    if (joint_velocities_[place] == velocities_before_[place]) continue;
+    const std::uint32_t body = joint_[place];
+    keep(body);
+    bodies_[body].vx = joint_velocities_[place].x();
+    bodies_[body].vy = joint_velocities_[place].y();
+    touch(body);  // also of one that moves by a rounding without a push: what is predicted of it must follow from its state
+  }
+}
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
+
+}  // namespace rink::physics

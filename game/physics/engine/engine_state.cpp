@@ -1,0 +1,89 @@
+// Rewriting the last-event states of bodies; nothing else in the engine does.
+#include "game/physics/engine/engine.h"
+
+namespace rink::physics {
+
+template <class Real>
+void BasicEngine<Real>::touch(std::uint32_t body) {
+  Body& b = bodies_[body];
+  if ((b.flags & touched) != 0) return;
+  b.flags |= touched;
+  ++b.version;
+  ++counters_.bodies_touched;
+  touched_.push_back(body);
+  if (spec_.accounts_energy) energies_.push_back(energy_of(body));
+}
+
+template <class Real>
+void BasicEngine<Real>::rebase(std::uint32_t body, Real time) {
+  Body& b = bodies_[body];
+  if (b.kind == BodyKind::post) return;
+  keep(body);
+  if (b.time < time) {
+    ++counters_.evaluations;
+    if (spec_.accounts_energy) enter_expense(body, time);
+    const Real elapsed = time - b.time;
+    if ((b.flags & curved) != 0) {
+      const Motion there = at(body, time);
+      b.x = there.position.x(), b.y = there.position.y(), b.vx = there.velocity.x(), b.vy = there.velocity.y();
+    } else if (puck_drag_ == 0.0) {
+      b.x += b.vx * elapsed, b.y += b.vy * elapsed;
+    } else {
+      const WarpedTime w = warp_unaccelerated(elapsed, puck_drag_);
+      b.x += b.vx * w.s, b.y += b.vy * w.s, b.vx *= w.e, b.vy *= w.e;
+    }
+    b.time = time;
+  }
+  touch(body);
+}
+
+/// Bodies in rest contact keep bitwise equal velocities only if they are evaluated from the same instant, so they are rebased together.
+template <class Real>
+void BasicEngine<Real>::rebase_companions(std::uint32_t body, Real time) {
+  rebase(body, time);
+  if ((bodies_[body].flags & held) == 0) return;
+  for (const std::uint32_t companion : companions(body, held)) rebase(companion, time);
+}
+
+template <class Real>
+void BasicEngine<Real>::set_law(std::uint32_t body, int axis, Real acceleration, Real drag) {
+  keep(body);
+  laws_[body].acceleration[axis] = acceleration;
+  laws_[body].drag[axis] = drag;
+  write_law(body);
+  touch(body);
+}
+
+template <class Real>
+void BasicEngine<Real>::write_law(std::uint32_t body) {
+  Body& b = bodies_[body];
+  const bool is_straight = b.kind != BodyKind::bat && laws_[body].acceleration == Vector2(0.0, 0.0) && laws_[body].drag == Vector2::Constant(puck_drag_);
+  curved_count_ += (is_straight ? 0u : 1u) - ((b.flags & curved) != 0 ? 1u : 0u);
+  b.flags = static_cast<std::uint8_t>(is_straight ? b.flags & ~curved : b.flags | curved);
+}
+
+/// Ends the equilibrium of the jam that `body` is part of: all its members yield to their thrust again.
+template <class Real>
+void BasicEngine<Real>::wake(std::uint32_t body, Real time) {
+  if ((bodies_[body].flags & frozen) == 0) return;
+  const std::uint32_t jam = jams_[body];
+  for (std::size_t i = 0; i < frozen_.size();) {
+    const std::uint32_t member = frozen_[i];
+    if (jams_[member] != jam) {
+      ++i;
+      continue;
+    }
+    keep(member);
+    frozen_[i] = frozen_.back();
+    frozen_.pop_back();
+    bodies_[member].flags = static_cast<std::uint8_t>(bodies_[member].flags & ~frozen);
+    rhythms_[member].hops = 0;
+    rebase(member, time);
+    for (int axis = 0; axis < 2; ++axis) set_law(member, axis, builds_[member].thrust[axis], own_drag(member));
+  }
+}
+
+template class BasicEngine<double>;
+template class BasicEngine<long double>;
+
+}  // namespace rink::physics

@@ -1,0 +1,46 @@
+// A window on the desktop with OpenGL 3.3 in it.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "game/view/window/window_event.h"
+
+struct GLFWwindow;
+
+namespace rink::view {
+
+/// There is no display to open a window on, or no OpenGL 3.3 there; what() says what is missing and how to get it.
+class NoDisplay : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// At most one at a time. Its OpenGL context is current as long as it exists.
+class Window {
+ public:
+  /// Throws NoDisplay. `width` and `height` in points of the desktop.
+  Window(const std::string& title, int width, int height, bool is_full_screen);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// What has happened since the last call.
+  std::vector<WindowEvent> events();
+  WindowSize size() const;
+  bool is_full_screen() const;
+  /// On the monitor that shows most of it; back to where it was.
+  void set_full_screen(bool is_wanted);
+  /// Shows what was drawn; waits for the screen if that is possible.
+  void show();
+
+ private:
+  void listen();
+  GLFWwindow* window_ = nullptr;
+  std::vector<WindowEvent> events_;
+  int x_ = 0, y_ = 0, width_ = 0, height_ = 0;  ///< before it filled the screen
+};
+
+}  // namespace rink::view

@@ -1,0 +1,94 @@
+// Many boxes, each stored once, in the order of the cells they are in: built at a stroke, asked often, thrown away.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "im/matching/index/box_store.h"
+#include "im/matching/buffer.h"
+#include "im/matching/index/cell_level.h"
+#include "im/matching/probe_list.h"
+#include "im/matching/projection.h"
+#include "im/matching/index/scan.h"
+#include "im/matching/index/size_levels.h"
+#include "im/matching/region_history.h"
+
+namespace rink::im {
+
+/// Stage boxes, then `build`, then ask. A box may be moving: then it is binned by the hull of where it was and where it is.
+class BoxIndex {
+ public:
+  /// Starts anew, with room for `count_max` boxes in a world of positive area.
+  void begin(const Region& world, std::size_t count_max, bool is_moving);
+  /// Adds a resting box.
+  void stage(std::uint32_t id, const Region& region);
+  /// Adds a box that may have come from elsewhere, or from nowhere.
+  void stage(std::uint32_t id, const Motion& motion);
+  /// Bins what was staged by counting sort: linear in boxes and cells.
+  void build();
+  /// The next places of all moving boxes that were built: each stays in the cell that it has, questions reach as much farther as boxes have come since. `regions` are where they
+  /// are now, all of them and at the last match in the places that are known here. False, and then it must be built anew, if they have come or grown too far for that to pay.
+  bool follow(const RegionHistory& regions, Instructions instructions = Instructions::best);
+
+  std::size_t size() const { return ids_.size(); }
+  /// In the order of their cells.
+  std::span<const std::uint32_t> ids() const { return ids_.span(); }
+  /// True if no projection lost anything.
+  bool is_exact() const { return is_exact_; }
+  Candidates candidates() const { return {is_moving_ ? before_.columns() : now_.columns(), now_.columns(), ids_.data()}; }
+  /// The boxes in the order of their cells, as questions to another index.
+  Probe probe(std::size_t i) const { return {is_moving_ ? before_[i] : now_[i], now_[i], ids_[i], 0}; }
+
+  /// Appends where boxes may overlap `box`; returns how many.
+  std::size_t find_overlaps(const FloatBox& box, Buffer<Stretch>& stretches) const;
+  /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells well inside both its places hold none.
+  std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+  /// The same for who asks what touches his disc.
+  std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+
+  std::size_t bytes() const;
+
+ private:
+  void count_cells();
+  template <class LevelOf>
+  void count_cells(const LevelOf& level_of);
+  void sort();
+  FloatBox hull(std::size_t staged) const;
+  void take_up(const Advanced& advanced, CellLevel& level);
+  template <class Query>
+  std::size_t collect(const CellLevel& level, const Query& query, Buffer<Stretch>& stretches) const;
+
+  Region world_;
+  Projection projection_;
+  bool is_moving_ = false, is_exact_ = true;
+  SizeLevels sizes_;
+  CellLevels levels_;
+  std::uint32_t follow_count_ = 0;  // since it was built
+  bool may_follow_ = true;  // as far as the last step tells
+  // As staged; the buffers have room for what was announced.
+  std::size_t staged_count_ = 0;
+  Buffer<FloatBox> staged_before_, staged_now_;
+  Buffer<std::uint32_t> staged_ids_, cells_;
+  // In the order of the cells.
+  Buffer<std::uint32_t> starts_;  // of each cell, and the end
+  Buffer<std::uint32_t> ids_;
+  BoxStore before_, now_;
+};
+
+inline void BoxIndex::stage(std::uint32_t id, const Region& region) {
+  const FloatBox box = projection_(region);
+  if (is_exact_) is_exact_ = projection_.is_exact(region, box);
+  sizes_.count(longer_side(box));
+  staged_ids_[staged_count_] = id;
+  staged_now_[staged_count_++] = box;
+}
+
+inline void BoxIndex::stage(std::uint32_t id, const Motion& motion) {
+  const ProjectedMotion projected = project(projection_, motion, is_exact_);
+  sizes_.count(longer_side(hull_of(projected.before, projected.now)));
+  staged_ids_[staged_count_] = id;
+  staged_before_[staged_count_] = projected.before;
+  staged_now_[staged_count_++] = projected.now;
+}
+
+}  // namespace rink::im

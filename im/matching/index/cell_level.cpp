@@ -1,0 +1,56 @@
+// Chooses the cells of each level by how many boxes there are and how they crowd.
+#include "im/matching/index/cell_level.h"
+
+#include <array>
+
+namespace rink::im {
+namespace {
+
+constexpr double cell_max = 1 << 28;
+
+/// Cells are numbered in single precision, which counts no further.
+constexpr double cells_across_max = 0x1p24;
+
+/// Finite also for a world that is tiny.
+CellAxis axis(double cells, double length) {
+  const double bounded = std::min(std::max(1.0, std::floor(cells)), cells_across_max);
+  return {static_cast<float>(std::min(bounded / length, static_cast<double>(float_max))), static_cast<std::int32_t>(bounded) - 1, 0.0f};
+}
+
+CellLevel lay_out(std::size_t box_count, double width, double height, double crowding, const CellShape& shape) {
+  const double boxes = std::max(1.0, static_cast<double>(box_count));
+  const double squares = std::min({boxes * crowding / shape.boxes_per_square, boxes * shape.cells_per_box_max / shape.columns_per_row, cell_max});
+  // A world that is long and thin has one row.
+  const double rows = std::clamp(std::floor(std::sqrt(squares * (height / width))), 1.0, std::max(1.0, squares));
+  CellLevel level;
+  level.y = axis(rows, height);
+  level.x = axis(squares * shape.columns_per_row / rows, width);
+  return level;
+}
+
+/// How much denser the boxes are around a box than on average, by a sample: the chance that two of them share one of 256 squares, 1/256 if even.
+double crowding(std::span<const FloatBox> boxes, double width, double height) {
+  constexpr std::int32_t squares_across = 16;
+  constexpr std::size_t sample_max = 1024;
+  const CellAxis x = axis(squares_across, width), y = axis(squares_across, height);
+  std::array<std::uint32_t, squares_across * squares_across> counts{};
+  for (std::size_t i = 0; i < boxes.size(); i += boxes.size() / sample_max + 1) ++counts[static_cast<std::size_t>(y.cell(boxes[i].low_y) * squares_across + x.cell(boxes[i].low_x))];
+  double pairs = 0.0, sampled = 0.0;
+  for (const double count : counts) pairs += count * (count - 1.0), sampled += count;
+  return sampled > 1.0 ? std::max(1.0, pairs / (sampled * (sampled - 1.0)) * static_cast<double>(counts.size())) : 1.0;
+}
+
+}  // namespace
+
+void CellLevels::choose(SizeLevels& sizes, std::span<const FloatBox> boxes, const Region& world, const CellShape& shape) {
+  sizes.choose();
+  const double width = world.high_x - world.low_x, height = world.high_y - world.low_y, crowd = crowding(boxes, width, height);
+  levels_.clear();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::uint32_t first = levels_.empty() ? 0 : cell_count();
+    levels_.push_back(lay_out(sizes.population(i), width, height, crowd, shape));
+    levels_.back().first_cell = first;
+  }
+}
+
+}  // namespace rink::im

@@ -1,0 +1,16 @@
+// Modes side by side: what is carried for each client and for what, and what the busiest node bears.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "loadgen/measure/run_record.h"
+
+namespace rink::loadgen {
+
+bool has_several_modes(std::span<const RunRecord> runs);
+
+/// A line per mode, scheme, policy and client count, means over valid runs; empty if all runs are of one mode.
+std::string modes_table(std::span<const RunRecord> runs);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,85 @@
+// Bats are subscribed when first asked for; those that look somewhere from the beginning, for where they look is remembered.
+#include "loadgen/measure/truth/filter_relevance.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "game/control/bat_controller.h"
+#include "game/net/server/serving.h"
+
+namespace rink::loadgen {
+namespace {
+
+im::Region around(const Vector2& centre, const Vector2& half) { return {centre.x() - half.x(), centre.y() - half.y(), centre.x() + half.x(), centre.y() + half.y()}; }
+
+std::uint32_t team_number(game::Team team) { return team == game::Team::none ? im::Role::none : static_cast<std::uint32_t>(team); }
+
+}  // namespace
+
+FilterRelevance::FilterRelevance(const RelevanceArea& area, const game::Scene& scene)
+    : area_(area), filter_(im::make_filter(area.expression, game::federation_settings(scene, area.expression, 0.0).filter_settings)) {
+  assert(area.shape == RelevanceArea::Shape::filter && !im::fault_in_momentary(area.expression));
+}
+
+void FilterRelevance::look_around(const game::Game& game, Centres centres) {
+  are_there_.resize(std::max(are_there_.size(), centres.size()), false);
+  relevant_.resize(are_there_.size());
+  for (std::uint32_t entity = 0; entity < are_there_.size(); ++entity)
+    if (are_there_[entity] && (entity >= centres.size() || !centres[entity])) forget(entity);
+  for (const game::Entity& entity : game.entities()) {
+    take_in(entity, *centres[entity.id.index]);
+    if (entity.player && (looks_back() || relevant_[entity.id.index])) subscribe(entity, game, *centres[entity.id.index]);
+  }
+  match();
+}
+
+void FilterRelevance::take_in(const game::Entity& entity, const Vector2& centre) {
+  const std::uint32_t number = entity.id.index;
+  filter_->set_update_region(number, around(centre, entity.half_extent));
+  if (are_there_[number]) return;
+  are_there_[number] = true;
+  filter_->set_entity_role(number, {.team = team_number(entity.team), .owner = entity.player.value_or(im::Role::none), .is_always_relevant = area_.always_by_role.has(entity.kind)});
+}
+
+void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game, const Vector2& centre) {
+  const std::uint32_t number = bat.id.index;
+  filter_->set_subscription_region(number, around(centre, {area_.reach, area_.reach}));
+  if (!relevant_[number]) {
+    relevant_[number].emplace();
+    filter_->set_subscriber_role(number, {.team = team_number(bat.team), .owner = *bat.player});
+  }
+  if (!looks_back()) return;
+  const Vector2 heading = game::direction(game.keys_held(*bat.player));
+  filter_->set_heading(number, {heading.x(), heading.y()});
+}
+
+void FilterRelevance::forget(std::uint32_t entity) {
+  are_there_[entity] = false;
+  filter_->remove_entity(entity);
+  if (relevant_[entity]) filter_->remove_subscriber(entity), relevant_[entity].reset();
+  for (auto& each : relevant_)
+    if (each) std::erase(*each, entity);
+}
+
+void FilterRelevance::match() {
+  for (const im::Change& change : filter_->match()) {
+    std::vector<std::uint32_t>& list = *relevant_[change.subscriber];
+    const auto place = std::lower_bound(list.begin(), list.end(), change.entity);
+    const bool is_listed = place != list.end() && *place == change.entity;
+    assert(is_listed == (change.transition == im::Transition::left));
+    if (is_listed) list.erase(place);
+    else list.insert(place, change.entity);
+  }
+}
+
+void FilterRelevance::find(std::uint32_t own, const game::Game& game, Centres centres, std::vector<Relevant>& found) {
+  if (!relevant_[own]) {
+    subscribe(game.entity({own}), game, *centres[own]);
+    match();
+  }
+  found.clear();
+  for (const std::uint32_t entity : *relevant_[own])
+    if (entity != own) found.push_back({entity, 0.0});
+}
+
+}  // namespace rink::loadgen

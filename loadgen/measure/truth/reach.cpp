@@ -1,0 +1,26 @@
+// |v(t)| <= v exp(-g t) + a s(t), and its integral; friction is a thrust backwards, until rest.
+#include "loadgen/measure/truth/reach.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "game/physics/flight/motion.h"
+
+namespace rink::loadgen {
+
+Reach::Reach(double time_s, double drag, double friction) : time_s_(time_s), drag_(drag), friction_(friction) {
+  assert(time_s > 0.0 && drag >= 0.0 && friction >= 0.0);
+  const physics::WarpedTime warped = physics::warp(time_s, drag);
+  s_ = warped.s, q_ = warped.q;
+}
+
+double Reach::of(double speed, double thrust) const {
+  assert(friction_ == 0.0 || thrust == 0.0);
+  if (friction_ == 0.0) return speed * s_ + thrust * q_;
+  const double rest_s = drag_ > 0.0 ? std::log1p(drag_ * speed / friction_) / drag_ : speed / friction_;
+  if (rest_s >= time_s_) return speed * s_ - friction_ * q_;
+  const physics::WarpedTime warped = physics::warp(rest_s, drag_);
+  return speed * warped.s - friction_ * warped.q;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,29 @@
+// Where everything truly was at each instant at which a run was judged, as lines for programs that judge it again.
+#pragma once
+
+#include <string>
+
+#include "game/net/evidence_lines.h"
+#include "loadgen/measure/truth/relevance.h"
+#include "loadgen/measure/truth/replay.h"
+
+namespace rink::loadgen {
+
+/// docs/metrics.md describes the file. Throws game::EvidenceError if it cannot be written.
+class TruthTrace {
+ public:
+  explicit TruthTrace(const std::string& file) : writer_(file) {}
+
+  /// Before anything else.
+  void begin(const RelevanceArea& area, const Replay& replay);
+  /// Where all are now; `replay` has looked around.
+  void look(double instant_s, const Replay& replay);
+  /// `body` met `other`.
+  void contact(double instant_s, std::uint32_t body, std::uint32_t other);
+  void finish() { writer_.finish(); }
+
+ private:
+  game::EvidenceWriter writer_;
+};
+
+}  // namespace rink::loadgen

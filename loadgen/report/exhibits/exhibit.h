@@ -1,0 +1,105 @@
+// The parts of the report: what each section needs, and what it gives.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/equal_error.h"
+#include "loadgen/experiment/experiment.h"
+#include "loadgen/measure/statistics/histogram.h"
+#include "loadgen/report/exhibits/cell_lines.h"
+#include "loadgen/report/plots/picture.h"
+#include "loadgen/report/plot_table.h"
+
+namespace rink::loadgen {
+
+/// The latencies of all valid replications of one cell together.
+struct CellLatencies {
+  Cell cell;  ///< its seed means nothing
+  Histogram update_age, key_to_effect, late_entry;
+};
+
+/// What the sections are made from.
+struct Findings {
+  const Experiment& experiment;
+  std::span<const RunRecord> runs;
+  std::span<const CellLatencies> latencies;
+  std::vector<CellLine> lines;
+  std::string relevance;  ///< what truth calls relevant, in words; empty if no run was held against truth
+  std::span<const CellDiscoveries> discoveries{};
+};
+
+/// A section's markup, its plots and the tables behind them.
+struct Exhibit {
+  std::string html;
+  std::vector<PlotTable> tables{};
+  std::vector<Picture> pictures{};  ///< panels of one table have its name, in the order of the page
+
+  /// Adds a figure, its caption and its data.
+  void add(const std::string& svg, const std::string& caption, PlotTable table);
+  /// Adds a figure of several that show the table called `table_name`.
+  void add_panel(const std::string& table_name, const std::string& svg, const std::string& caption);
+  /// Says in a sentence why something is not there.
+  void add_absence(const std::string& sentence);
+  void add(Exhibit other);
+};
+
+/// The columns that every table by cell begins with, and their values.
+std::vector<std::string> cell_columns();
+std::vector<std::string> cell_values(const CellLine& line, const CellGroup& group);
+/// The lines that plots over clients draw: all, of several parts those of the first, or where a sweep makes too many to tell apart, those with the first value of every parameter.
+std::vector<CellLine> plotted_lines(const Findings& findings);
+/// The same of the part called `part`.
+std::vector<CellLine> plotted_lines(const Findings& findings, const std::string& part);
+/// Appends mean, low and high of `mean` to `row`, empty where absent.
+void append_interval(std::vector<std::string>& row, const std::optional<MeanInterval>& mean);
+
+/// Of `lines` the largest number of clients alone; and that this was done, in words, empty if there is but one number.
+std::vector<CellLine> largest_crowds(std::vector<CellLine> lines);
+std::string largest_crowd_words(const Findings& findings);
+/// The range of a linear axis that shows data between `low` and `high`, both at least 0, with a little room, from 0 on.
+std::pair<double, double> zoomed(double low, double high);
+
+/// Bytes by what they are about, stacked.
+Exhibit bytes_by_kind_exhibit(const Findings& findings);
+/// The displayed error's distribution function; nothing if no run left one.
+void add_error_distribution(Exhibit& exhibit, const Findings& findings);
+/// Recall by the delay of parts that are otherwise alike; nothing if there are no such parts.
+void add_recall_against_delay(Exhibit& exhibit, const Findings& findings);
+/// Bytes against clients.
+Exhibit traffic_exhibit(const Findings& findings);
+/// What each node bears with a server and without, and what its bytes are about.
+Exhibit modes_exhibit(const Findings& findings);
+/// Bytes against error, and what filter and policy gain.
+Exhibit gains_exhibit(const Findings& findings);
+/// Rivals at equal displayed error and recall, which must not be empty, and the curves of `runs` behind them; and the best of them in a sentence, empty if there is none.
+Exhibit equal_error_exhibit(const Experiment& experiment, std::span<const RunRecord> runs, const std::vector<EqualError>& comparisons);
+std::string equal_error_headline(const std::vector<EqualError>& comparisons);
+/// Precision against recall.
+Exhibit relevance_exhibit(const Findings& findings);
+/// Bytes against the recall and against the precision of the filter's decisions, for each line that is drawn; nothing if no run was held against truth.
+void add_bytes_against_relevance(Exhibit& exhibit, const Findings& findings);
+/// Late discoveries and missed contacts as distribution functions, of the largest number of clients.
+Exhibit discovery_exhibit(const Findings& findings);
+/// What each parameter does that the experiment lists several values of.
+Exhibit sweep_exhibit(const Findings& findings);
+/// Whether some of the compared expressions differ in their numbers alone, and bytes against error and recall with a curve for each form of them.
+bool has_expressions_of_one_form(const Findings& findings);
+Exhibit stages_exhibit(const Findings& findings);
+/// Whole curves of latency percentiles.
+Exhibit latency_exhibit(const Findings& findings);
+/// What a tick costs, by part.
+Exhibit cost_exhibit(const Findings& findings);
+/// How replications scatter.
+Exhibit replication_exhibit(const Findings& findings);
+/// How a tick's cost grows with clients, pucks and bats, and what a second processor changes.
+Exhibit growth_exhibit(const Findings& findings);
+/// How the load generator itself fared.
+Exhibit generator_exhibit(const Findings& findings);
+/// Every run with its figures, and those that do not count with their reasons.
+Exhibit runs_exhibit(const Findings& findings);
+
+}  // namespace rink::loadgen

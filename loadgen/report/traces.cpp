@@ -1,0 +1,27 @@
+// Takes the runs from the journal, and what they call relevant from the experiment.
+#include "loadgen/report/traces.h"
+
+#include <string>
+
+#include "loadgen/report/artefact.h"
+#include "loadgen/run/run_journal.h"
+#include "loadgen/measure/truth/truth.h"
+
+namespace rink::loadgen {
+
+std::size_t write_traces(const std::filesystem::path& folder) {
+  check_manifest(folder);
+  const Experiment experiment = experiment_of_report(folder);
+  std::size_t written = 0;
+  for (const RunRecord& run : read_journal(folder / "runs.jsonl").runs) {
+    const std::string name = folder / "cells" / name_of(run.cell);
+    if (!run.valid || !std::filesystem::exists(name + ".server.jsonl") || !std::filesystem::exists(name + ".bots.jsonl")) continue;
+    const game::ServerEvidence server = game::read_server_evidence(name + ".server.jsonl");
+    const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell, game::chosen_scene(server.choice));
+    write_trace(name + ".truth.jsonl", server, read_bots_evidence(name + ".bots.jsonl"), area);
+    ++written;
+  }
+  return written;
+}
+
+}  // namespace rink::loadgen

@@ -1,0 +1,14 @@
+// What a crowd of bots counted, as its report says it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "loadgen/run/bots/bot_crowd.h"
+
+namespace rink::loadgen {
+
+/// The bots' report, valid unless there is a reason `why_invalid`.
+nlohmann::ordered_json bots_report(const BotCrowd& crowd, const std::string& why_invalid);
+
+}  // namespace rink::loadgen

@@ -1,0 +1,224 @@
+// Starts the server, then the bots, waits for both within limits and reads their reports.
+#include "loadgen/run/cell_runner.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "game/players/player.h"
+#include "game/replication/update_policy.h"
+#include "loadgen/measure/discovery_table.h"
+#include "loadgen/run/game_plan.h"
+#include "loadgen/experiment/parameter.h"
+#include "loadgen/run/process.h"
+#include "loadgen/run/process_run.h"
+#include "loadgen/measure/truth/truth.h"
+#include "rti/federation_execution.h"
+
+namespace rink::loadgen {
+namespace {
+
+using std::chrono::milliseconds;
+
+std::string with_last_words(std::string what, const Process& process) {
+  const std::string words = process.last_words();
+  return words.empty() ? what : what + ", saying: " + words;
+}
+
+nlohmann::json report_at(const std::filesystem::path& path, const std::string& who) {
+  std::ifstream stream(path);
+  if (!stream) throw Failure{who + " wrote no report"};
+  nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
+  if (report.is_discarded()) throw Failure{who + " wrote a report that is not JSON"};
+  return report;
+}
+
+/// One cell while it runs.
+class CellRun {
+ public:
+  CellRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log)
+      : settings_(settings), experiment_(experiment), cell_(cell), key_log_(key_log),
+        server_report_(settings.directory / (name_of(cell) + ".server.json")), bots_report_(settings.directory / (name_of(cell) + ".bots.json")) {}
+
+  void run(RunRecord& record) {
+    std::error_code ignored;
+    std::filesystem::remove(server_report_, ignored);
+    std::filesystem::remove(bots_report_, ignored);
+    const std::string server_evidence = server_report_.string() + "l", bots_evidence = bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
+    std::filesystem::remove(server_evidence, ignored);
+    std::filesystem::remove(bots_evidence, ignored);
+    std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
+    if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_evidence});
+    const bool is_apart = cell_.server_cores == 1;
+    Process server(settings_.serve, serve, is_apart ? settings_.server_processors : std::vector<int>{});
+    const std::string address = address_of(server);
+    std::vector<std::string> play = bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
+    if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_evidence});
+    Process bots(settings_.bots, play, is_apart ? settings_.bots_processors : std::vector<int>{});
+    await(server, bots);
+    record.server_cpu_s = server.ending()->cpu_s;
+    record.bots_cpu_s = bots.ending()->cpu_s;
+    record.nodes.busiest_cpu_s = record.server_cpu_s;
+    record.nodes.mean_cpu_s = (*record.server_cpu_s + *record.bots_cpu_s) / (1.0 + cell_.clients);
+    judge(record, report_at(server_report_, "the server"), report_at(bots_report_, "the bots"));
+  }
+
+ private:
+  void heed_interrupt() const {
+    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
+  }
+
+  std::string address_of(Process& server) {
+    const auto deadline = after(settings_.listen_limit_s);
+    while (true) {
+      heed_interrupt();
+      server.attend(look_interval);
+      if (const auto address = server.line_after("listening on ")) return *address;
+      if (server.ending()) throw Failure{with_last_words("the server " + server.ending()->text() + " before it listened", server)};
+      if (Clock::now() > deadline) {
+        server.stop(settings_.stop_grace);
+        throw Failure{with_last_words("the server did not listen within " + decimal(settings_.listen_limit_s) + " s", server)};
+      }
+    }
+  }
+
+  /// Returns when both have ended well.
+  void await(Process& server, Process& bots) {
+    const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
+    auto deadline = after(limit_s);
+    bool has_failed = false;
+    while (!server.ending() || !bots.ending()) {
+      heed_interrupt();
+      (server.ending() ? bots : server).attend(look_interval);
+      if (!server.ending()) bots.attend(milliseconds(0));
+      const bool fails_now = (server.ending() && !server.ending()->is_success()) || (bots.ending() && !bots.ending()->is_success());
+      if (fails_now && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
+      has_failed = has_failed || fails_now;
+      if (Clock::now() > deadline) break;
+    }
+    // Who failed by itself is named before who was merely still waiting for it.
+    std::string why;
+    const auto add = [&why](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
+    const auto name_failure = [&](const char* who, const Process& process) {
+      if (process.ending() && !process.ending()->is_success()) add(with_last_words(std::string(who) + " " + process.ending()->text(), process));
+    };
+    name_failure("the server", server);
+    name_failure("the bots", bots);
+    const auto end_late = [&](const char* who, Process& process) {
+      if (process.ending()) return;
+      process.stop(settings_.stop_grace);
+      if (!has_failed) add(with_last_words(std::string(who) + " had not ended after " + decimal(limit_s) + " s", process));
+    };
+    end_late("the server", server);
+    end_late("the bots", bots);
+    if (!why.empty()) throw Failure{why};
+  }
+
+  const RunnerSettings& settings_;
+  const Experiment& experiment_;
+  const Cell& cell_;
+  const std::filesystem::path& key_log_;
+  std::filesystem::path server_report_, bots_report_;
+};
+
+}  // namespace
+
+void pin_apart(RunnerSettings& settings, const std::vector<int>& processors) {
+  settings.server_processors.clear();
+  settings.bots_processors.clear();
+  if (processors.size() < 2) return;
+  settings.server_processors = {processors.front()};
+  settings.bots_processors.assign(processors.begin() + 1, processors.end());
+}
+
+std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log,
+                                         const std::filesystem::path& report) {
+  std::vector<std::string> arguments{"--scene", experiment.scene};
+  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
+  add("--seed", std::to_string(cell.seed));
+  add("--address", "127.0.0.1");
+  add("--port", "0");
+  add("--transport", to_string(experiment.transport));
+  add("--scheme", cell.scheme);
+  if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
+  if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
+  if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
+  if (im::names_scheme(cell.scheme, "always"))
+    for (const std::string& kind : experiment.always) add("--always", kind);
+  if (cell.parameters.sweep_ticks > 0) add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
+  add("--policy", cell.policy);
+  if (game::takes_threshold(cell.policy)) add("--threshold", decimal(cell.parameters.threshold));
+  add("--rate", decimal(cell.parameters.tick_rate_hz));
+  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
+  add("--warm-up", decimal(experiment.warm_up_s));
+  add("--clients", std::to_string(cell.clients));
+  if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
+  if (experiment.start_s > 0.0) add("--from-state", state_file_of(key_log).string());
+  add("--report", report.string());
+  return arguments;
+}
+
+std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, const std::string& address,
+                                        const std::filesystem::path& report) {
+  std::vector<std::string> arguments{"--connect", address};
+  const auto add = [&arguments](const char* flag, const std::string& value) { arguments.insert(arguments.end(), {flag, value}); };
+  add("--transport", to_string(experiment.transport));
+  add("--count", std::to_string(cell.clients));
+  add("--seed", std::to_string(cell.seed));
+  if (experiment.keys == KeySource::live && experiment.players != "random" && game::is_player_kind(experiment.players)) {
+    add("--players", experiment.players);
+    add("--scene", experiment.scene);
+  } else {
+    add("--plan", key_log.string());
+  }
+  add("--view", decimal(cell.parameters.view_fraction));
+  if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
+  add("--view-margin", decimal(cell.parameters.view_margin));
+  if (!has_regions(cell)) arguments.push_back("--no-regions");
+  if (!cell.parameters.extrapolates) arguments.push_back("--no-extrapolate");
+  if (experiment.start_s > 0.0) add("--start", decimal(experiment.start_s));
+  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
+  add("--warm-up", decimal(experiment.warm_up_s));
+  add("--report", report.string());
+  return arguments;
+}
+
+std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment,
+                                  const Cell& cell, const std::filesystem::path& key_log) {
+  std::optional<ProcessRun> run = run_processes(settings, experiment, cell, key_log);
+  if (!run) return std::nullopt;
+  return judged(settings, experiment, std::move(*run));
+}
+
+RunRecord judged(const RunnerSettings& settings, const Experiment& experiment, ProcessRun run) {
+  RunRecord& record = run.record;
+  if (!settings.wants_truth || !run.has_reports) return record;
+  const std::string evidence = (settings.directory / name_of(record.cell)).string();
+  add_truth(record, experiment, evidence + ".server.jsonl", evidence + ".bots.jsonl",
+            discovery_file(settings.directory, record.cell));
+  return record;
+}
+
+std::optional<ProcessRun> run_processes(const RunnerSettings& settings,
+                                        const Experiment& experiment, const Cell& cell,
+                                        const std::filesystem::path& key_log) {
+  ProcessRun run{record_for(experiment, cell)};
+  RunRecord& record = run.record;
+  try {
+    CellRun(settings, experiment, cell, key_log).run(record);
+    run.has_reports = true;
+  } catch (const Failure& failure) {
+    record.valid = false;
+    record.why_invalid = failure.why;
+  } catch (const std::system_error& error) {
+    record.valid = false;
+    record.why_invalid = error.what();
+  } catch (const Interrupted&) {
+    return std::nullopt;
+  }
+  return run;
+}
+
+}  // namespace rink::loadgen

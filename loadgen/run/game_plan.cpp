@@ -1,0 +1,87 @@
+// Draws, plays or copies the keys of a game, and writes them as a key log.
+#include "loadgen/run/game_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "game/control/game.h"
+#include "game/control/game_state.h"
+#include "game/control/key_log.h"
+#include "game/control/playing.h"
+#include "game/players/random_plan.h"
+#include "loadgen/measure/results.h"
+
+namespace rink::loadgen {
+namespace {
+
+/// A game's key log is written for the first of its cells, so the largest of them counts.
+void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::size_t bat_count) {
+  std::uint32_t most = first.clients;
+  for (const Cell& cell : cells_of(experiment))
+    if (cell.bats == first.bats) most = std::max(most, cell.clients);
+  if (experiment.population == Population::per_client || most <= bat_count) return;
+  throw ExperimentError("experiment " + experiment.name + ": clients = " + std::to_string(most) + ": scene " + experiment.scene + " has " +
+                        std::to_string(bat_count) + " bats; allowed is at most as many clients, or population = \"per_client\"");
+}
+
+/// Random players never look, so their keys need no game; those who look play it here, on its true state. Live players who look will play on what they are told, so
+/// there is nothing to record. What names no kind of player is the path of a recorded log.
+std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& cell, const game::Scene& scene) {
+  const double until_s = experiment.end_s();
+  if (experiment.players == "random") return game::random_plan(cell.seed, static_cast<std::uint32_t>(scene.bodies.bats.size()), until_s);
+  if (!game::is_player_kind(experiment.players)) {
+    const game::KeyLog recorded = game::read_key_log(std::filesystem::path(experiment.players));
+    game::require_fit(recorded, scene, experiment.players);
+    return recorded.events;
+  }
+  if (experiment.keys == KeySource::live) return {};
+  game::Playing playing(scene, {experiment.players}, cell.seed, until_s);
+  playing.advance(until_s);
+  return playing.keys();
+}
+
+/// The game of `keys` by `instant_s`, played as fast as it goes.
+std::vector<std::uint8_t> state_at(double instant_s, const game::Scene& scene, const std::vector<game::InputEvent>& keys) {
+  game::Game game(scene);
+  for (const game::InputEvent& event : keys)
+    if (event.time <= instant_s) game.submit(event);
+  game.advance(instant_s);
+  return game::GameState::save(game, scene);
+}
+
+}  // namespace
+
+std::filesystem::path state_file_of(const std::filesystem::path& key_log) { return std::filesystem::path(key_log).replace_extension(".state"); }
+
+game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell) {
+  return {.scene = experiment.scene,
+          .bats = experiment.population == Population::per_client ? cell.clients : 0u,
+          .bat_count = cell.bats,
+          .puck_count = cell.pucks,
+          .seed = cell.seed};
+}
+
+game::Scene scene_of(const Experiment& experiment, const Cell& cell) { return game::chosen_scene(choice_of(experiment, cell)); }
+
+void write_game_plan(const Experiment& experiment, const Cell& cell, const std::filesystem::path& file) {
+  game::KeyLog log;
+  game::Scene scene;
+  try {
+    scene = scene_of(experiment, cell);
+    expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
+    if (scene.world.field.goal_width > 0.0 && std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) != experiment.modes.end())
+      throw ExperimentError("experiment " + experiment.name + ": modes = " + peer_mode + ": scene " + experiment.scene + " has goals, which peers cannot share; allowed is one without, such as arena");
+    log = game::key_log_for(scene);
+    log.events = keys_of(experiment, cell, scene);
+  } catch (const game::SceneError& error) {
+    throw ExperimentError(error.what());
+  }
+  try {
+    game::write_key_log(file, log);
+    if (experiment.start_s > 0.0) game::write_game_state(state_file_of(file), state_at(experiment.start_s, scene, log.events));
+  } catch (const game::SceneError& error) {
+    throw OutputError(error.what());
+  }
+}
+
+}  // namespace rink::loadgen

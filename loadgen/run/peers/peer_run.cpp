@@ -1,0 +1,336 @@
+// The loop of virtual_run.cpp for stations instead of a server and its bots: whatever is due next, an arrival, a key, a window's end or a sample.
+#include "loadgen/run/peers/peer_run.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "game/control/key_log.h"
+#include "game/net/peer/meeting/seating.h"
+#include "game/net/view.h"
+#include "game/net/relevant_kinds.h"
+#include "loadgen/run/game_plan.h"
+#include "loadgen/run/peers/peer_judgement.h"
+#include "loadgen/run/peers/peer_station.h"
+#include "loadgen/run/virtual_parts.h"
+#include "rti/transport/modelled/virtual_network.h"
+
+namespace rink::loadgen {
+namespace {
+
+/// A station at its end of the network, with a connection to each other one. Who connects says its number first.
+class NetworkedStation : private rti::TransportListener {
+ public:
+  NetworkedStation(rti::VirtualNetwork& network, PeerStation& station, peer::PeerNumber number, peer::PeerNumber count)
+      : end_(network), station_(station), number_(number), connections_(count) {
+    end_.listen(name_of(number));
+  }
+  /// To all whose number is lower.
+  void connect() {
+    for (peer::PeerNumber other = 0; other < number_; ++other) note(end_.connect(name_of(other)), other);
+  }
+  bool is_connected() const { return open_ + 1 == connections_.size(); }
+  const std::string& trouble() const { return trouble_; }
+  rti::TransportCounters totals() const { return end_.totals(); }
+
+  void run_once() {
+    if (end_.has_arrivals()) end_.poll({}, *this);
+  }
+  void flush() {
+    for (peer::PeerNumber to = 0; to < connections_.size(); ++to) {
+      std::vector<std::uint8_t>& outbox = station_.outbox(to);
+      if (outbox.empty()) continue;
+      const rti::Bytes bytes = std::as_bytes(std::span(outbox));
+      end_.send(connections_[to], std::span(&bytes, 1));
+      outbox.clear();
+    }
+  }
+
+ private:
+  static constexpr peer::PeerNumber unknown = 0xffffffffu;
+  static std::string name_of(peer::PeerNumber number) { return "peer-" + std::to_string(number); }
+
+  void note(rti::ConnectionId connection, peer::PeerNumber other) {
+    if (others_.size() <= connection) others_.resize(connection + 1, unknown);
+    others_[connection] = other;
+    if (other != unknown) connections_[other] = connection;
+  }
+  void on_open(rti::ConnectionId connection) override {
+    if (connection >= others_.size() || others_[connection] == unknown) return note(connection, unknown);
+    std::array<std::byte, sizeof number_> words{};
+    std::memcpy(words.data(), &number_, sizeof number_);
+    const rti::Bytes bytes = words;
+    end_.send(connection, std::span(&bytes, 1));
+    ++open_;
+  }
+  void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override {
+    if (others_[connection] == unknown) {
+      peer::PeerNumber other = 0;
+      std::memcpy(&other, bytes.data(), sizeof other);
+      note(connection, other);
+      ++open_;
+      bytes = bytes.subspan(sizeof other);
+    }
+    try {
+      if (!bytes.empty()) station_.hear(others_[connection], bytes);
+    } catch (const peer::ProtocolError& error) {
+      if (trouble_.empty()) trouble_ = "peer " + std::to_string(number_) + ": " + error.what();
+    }
+  }
+  void on_close(rti::ConnectionId connection, rti::CloseReason reason, const std::string&) override {
+    if (trouble_.empty()) trouble_ = "peer " + std::to_string(number_) + ": connection to peer " + std::to_string(others_[connection]) + " is closed: " + rti::to_string(reason);
+  }
+
+  rti::VirtualEndpoint end_;
+  PeerStation& station_;
+  peer::PeerNumber number_;
+  std::vector<rti::ConnectionId> connections_;  ///< by peer
+  std::vector<peer::PeerNumber> others_;        ///< by connection
+  std::size_t open_ = 0;
+  std::string trouble_;
+};
+
+class PeerRun {
+ public:
+  PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys);
+
+  void run();
+  /// After that.
+  void judge(RunRecord& record) const;
+
+ private:
+  PeerTotals totals() const;
+  double played_s() const { return experiment_.warm_up_s + experiment_.duration_s; }
+  std::uint64_t last_window() const { return loadgen::last_window(experiment_, cell_); }
+  void advance_until(std::int64_t until_ns);
+  void flush();
+  void act_when_due();
+  double next_due_s() const;
+  void connect();
+  void note_decisions(double instant_s);
+  std::string state_hash() const;
+  TrafficTotals traffic() const;
+
+  const RunnerSettings& settings_;
+  const Experiment& experiment_;
+  const Cell& cell_;
+  game::SharedGame game_;
+  game::SeatedDivision seats_;
+  rti::NetworkModel model_;
+  rti::VirtualNetwork network_;
+  RunClock clock_;
+  Measurements measurements_;
+  std::deque<PeerStation> stations_;
+  std::deque<NetworkedStation> ends_;
+  std::vector<game::InputEvent> keys_;
+  std::size_t next_key_ = 0;
+  std::vector<peer::PeerNumber> node_of_player_;
+  std::vector<std::uint32_t> players_;                    ///< that are watched
+  std::vector<double> sample_instants_, decision_instants_;
+  std::size_t next_sample_ = 0, next_decision_ = 0;
+  game::ServerEvidence evidence_;
+  TrafficTotals begin_, measured_;
+  double measured_s_ = 0.0;
+  bool has_started_ = false;
+};
+
+game::InterestSettings interest_settings(const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<std::uint32_t>& bats) {
+  const physics::Field& field = scene.world.field;
+  game::InterestSettings settings;
+  settings.always_relevant = game::relevant_kinds_of(scene, experiment.always);
+  settings.scheme = cell.scheme, settings.policy = cell.policy, settings.cell_size = cell.parameters.cell_size;
+  settings.half_side = game::view_half_side(experiment.view_area, cell.parameters.view_fraction, field.length, field.width);
+  settings.margin = cell.parameters.view_margin;
+  settings.rate_hz = cell.parameters.tick_rate_hz;
+  settings.bats = bats;
+  return settings;
+}
+
+PeerRun::PeerRun(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const game::Scene& scene, const std::vector<game::InputEvent>& keys)
+    : settings_(settings),
+      experiment_(experiment),
+      cell_(cell),
+      game_(scene, keys),
+      seats_(game::seated_division(game_.start(), cell.clients)),
+      model_(network_conditions(experiment, cell)),
+      network_(model_),
+      keys_(keys) {
+  const game::InterestSettings interest = interest_settings(experiment, cell, scene, seats_.bats);
+  measurements_.from_s = experiment.warm_up_s, measurements_.until_s = played_s();
+  for (peer::PeerNumber number = 0; number < cell.clients; ++number) {
+    PeerStation& station = stations_.emplace_back(game_, interest, seats_.division, number, clock_, measurements_);
+    ends_.emplace_back(network_, station, number, cell.clients);
+  }
+  node_of_player_.resize(game_.start().player_count(), cell.clients);
+  for (peer::PeerNumber number = 0; number < cell.clients; ++number)
+    for (const game::Entity& entity : game_.start().entities())
+      if (entity.id.index == seats_.bats[number]) node_of_player_[*entity.player] = number;
+  std::erase_if(keys_, [&](const game::InputEvent& key) { return node_of_player_[key.player] == cell.clients || key.time >= played_s(); });
+  evidence_.keys = keys;
+  if (!settings.wants_truth) return;
+  const game::SamplingSettings sampling{.seed = cell.seed, .clients = cell.clients, .from_s = experiment.warm_up_s, .until_s = played_s()};
+  players_ = game::sampled_players(sampling);
+  decision_instants_ = game::sampled_instants(sampling, 1), sample_instants_ = game::sampled_instants(sampling, 2);
+  for (const std::uint32_t player : players_) stations_[node_of_player_[player]].watch();
+}
+
+void PeerRun::flush() {
+  for (NetworkedStation& end : ends_) {
+    end.flush();
+    if (!end.trouble().empty()) throw Failure{end.trouble()};
+  }
+}
+
+double PeerRun::next_due_s() const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (!has_started_) return never;
+  const double key_s = next_key_ < keys_.size() ? keys_[next_key_].time : never;
+  const double sample_s = next_sample_ < sample_instants_.size() ? sample_instants_[next_sample_] : never;
+  const double decision_s = next_decision_ < decision_instants_.size() ? decision_instants_[next_decision_] : never;
+  return clock_.start_s + std::min({key_s, sample_s, decision_s});
+}
+
+void PeerRun::act_when_due() {
+  if (!has_started_) return;
+  const double now_s = clock_.simulated_s();
+  for (; next_key_ < keys_.size() && clock_.start_s + keys_[next_key_].time <= clock_.now_s; ++next_key_) stations_[node_of_player_[keys_[next_key_].player]].press(keys_[next_key_].time);
+  for (; next_decision_ < decision_instants_.size() && decision_instants_[next_decision_] <= now_s; ++next_decision_) note_decisions(decision_instants_[next_decision_]);
+  for (; next_sample_ < sample_instants_.size() && sample_instants_[next_sample_] <= now_s; ++next_sample_)
+    for (const std::uint32_t player : players_) stations_[node_of_player_[player]].sample();
+}
+
+/// Lets everything happen that happens up to `until_ns`, itself included.
+void PeerRun::advance_until(std::int64_t until_ns) {
+  for (;;) {
+    if (settings_.is_interrupted && settings_.is_interrupted->load()) throw Interrupted{};
+    std::int64_t next_ns = network_.next_arrival_ns().value_or(INT64_MAX);
+    if (const double due_s = next_due_s(); due_s < 1e9) next_ns = std::min(next_ns, std::max(network_.now_ns(), not_before(due_s)));
+    if (next_ns > until_ns) break;
+    network_.advance_to(next_ns);
+    clock_.now_s = network_.now_s();
+    for (NetworkedStation& end : ends_) end.run_once();
+    act_when_due();
+    flush();
+  }
+  network_.advance_to(until_ns);
+  clock_.now_s = network_.now_s();
+}
+
+void PeerRun::connect() {
+  for (NetworkedStation& end : ends_) end.connect();
+  for (int tries = 0; !std::all_of(ends_.begin(), ends_.end(), [](const NetworkedStation& end) { return end.is_connected(); }); ++tries) {
+    if (tries == 64) throw Failure{"waited in vain for all peers to be connected"};
+    advance_until(network_.now_ns() + settling_ns(experiment_));
+  }
+}
+
+void PeerRun::run() {
+  connect();
+  const std::int64_t start_ns = (network_.now_ns() / second_ns + 1) * second_ns;  // a whole second: sums with it are rounded least
+  advance_until(start_ns);
+  for (rti::Partition cut : experiment_.network.partitions) {
+    cut.from_ns += start_ns, cut.until_ns += start_ns;
+    model_.add(cut);
+  }
+  clock_.start_s = network_.now_s();
+  has_started_ = true;
+  bool is_measuring = false;
+  std::int64_t measured_from_ns = 0;
+  for (std::uint64_t window = 0; window <= last_window(); ++window) {
+    const double simulated_s = static_cast<double>(window) / cell_.parameters.tick_rate_hz;
+    advance_until(start_ns + nanoseconds(simulated_s));
+    if (!is_measuring && simulated_s >= experiment_.warm_up_s) is_measuring = true, begin_ = traffic(), measured_from_ns = network_.now_ns();
+    // The last window's end closes the span and is not in it: n windows, and the n periods that they begin.
+    if (window == last_window()) measured_ = traffic() - begin_, measured_s_ = 1e-9 * static_cast<double>(network_.now_ns() - measured_from_ns);
+    if (window == 0) continue;
+    for (PeerStation& station : stations_) station.due();
+    flush();
+  }
+  const auto is_done = [&](const PeerStation& station) { return station.node().windows_final() == last_window() && station.node().is_idle(); };
+  advance_until(start_ns + nanoseconds(played_s()) + 4 * settling_ns(experiment_) + 1);
+  for (int tries = 0; !std::all_of(stations_.begin(), stations_.end(), is_done); ++tries) {
+    if (tries == 1000) throw Failure{"the peers had not agreed on the last window long after its end: with this delay, agreement takes longer than a window"};
+    advance_until(network_.now_ns() + settling_ns(experiment_));
+  }
+}
+
+TrafficTotals PeerRun::traffic() const {
+  TrafficTotals totals;
+  for (std::size_t k = 0; k < stations_.size(); ++k) totals.add(stations_[k].node(), ends_[k].totals());
+  return totals;
+}
+
+/// Who is to be told of what, by the owners' latest decisions.
+void PeerRun::note_decisions(double instant_s) {
+  for (const std::uint32_t player : players_) {
+    const peer::PeerNumber node = node_of_player_[player];
+    const std::size_t first = evidence_.in_scope.size();
+    for (const PeerStation& station : stations_) {
+      const std::vector<std::uint32_t>& scope = station.node().interest().sender().scope_of(node);
+      for (const std::uint32_t body : scope)
+        if (station.node().interest().owns(body)) evidence_.in_scope.push_back(body);
+    }
+    std::sort(evidence_.in_scope.begin() + static_cast<std::ptrdiff_t>(first), evidence_.in_scope.end());
+    evidence_.decisions.push_back({instant_s, player, first, evidence_.in_scope.size()});
+  }
+}
+
+std::string PeerRun::state_hash() const {
+  std::vector<peer::Arrivals> parts;
+  for (const PeerStation& station : stations_) parts.push_back(peer::own_bodies(station.node().peer()));
+  const auto world = peer::hash_of_whole(game_.start().world().spec(), game_.start().world().body_count(), parts);
+  if (!world) throw Failure{"not every body has one owner in the end"};
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, game_.hash(*world, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz));
+  return text;
+}
+
+PeerTotals PeerRun::totals() const {
+  PeerTotals totals;
+  totals.measured = measured_, totals.measured_s = measured_s_;
+  totals.windows = last_window();
+  totals.measured_windows = loadgen::measured_windows(experiment_, cell_);
+  totals.entities = game_.start().entities().size();
+  totals.state_hash = state_hash();
+  totals.whole = traffic();
+  totals.whole_received = totals.whole.bytes;
+  for (const PeerStation& station : stations_) {
+    totals.counters += station.node().peer().counters();
+    totals.keys_unanswered += station.probe().unanswered();
+    totals.known += station.windows_known(), totals.on_time += station.windows_on_time();
+  }
+  return totals;
+}
+
+void PeerRun::judge(RunRecord& record) const {
+  const PeerTotals sums = totals();
+  game::ServerEvidence server = evidence_of(experiment_, cell_, game_.start(), evidence_.keys, static_cast<double>(last_window()) / cell_.parameters.tick_rate_hz, sums.state_hash);
+  server.decisions = evidence_.decisions, server.in_scope = evidence_.in_scope;
+  BotsEvidence bots = bots_evidence_of(server);
+  for (const std::uint32_t player : players_) add_player(bots, stations_[node_of_player_[player]].evidence());
+  judge_peers(settings_, experiment_, record, sums, measurements_, server, bots);
+}
+
+void run_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log, RunRecord& record) {
+  const game::Scene scene = scene_of(experiment, cell);
+  PeerRun run(settings, experiment, cell, scene, keys_in(key_log, scene));
+  try {
+    run.run();
+  } catch (const peer::ProtocolError& error) {
+    throw Failure{error.what()};
+  }
+  run.judge(record);
+}
+
+}  // namespace
+
+std::optional<RunRecord> run_virtual_peers(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell, const std::filesystem::path& key_log) {
+  return recorded(experiment, cell, [&](RunRecord& record) { run_peers(settings, experiment, cell, key_log, record); });
+}
+
+}  // namespace rink::loadgen

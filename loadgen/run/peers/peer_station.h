@@ -1,0 +1,67 @@
+// One peer of a run, with its player: frames to and from the others, and what is measured of it. No clock, no connection of its own.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/net/peer/meeting/frames.h"
+#include "game/net/peer/peer_node.h"
+#include "game/net/peer/player_witness.h"
+#include "loadgen/run/bots/probe.h"
+
+namespace rink::loadgen {
+
+/// Bytes around each message: a frame's head, and what it is about.
+inline constexpr std::size_t peer_message_head = game::frame_head + 1;
+
+/// The clock of a run: simulated time is that since its start. All in seconds.
+struct RunClock {
+  double now_s = 0.0, start_s = 0.0;
+  double simulated_s() const { return now_s - start_s; }
+};
+
+class PeerStation {
+ public:
+  /// `clock` must outlive the station, as must `measurements`, which may be shared.
+  PeerStation(const game::SharedGame& game, const game::InterestSettings& settings, const peer::Division& division, peer::PeerNumber number, const RunClock& clock, Measurements& measurements);
+
+  /// Keeps evidence of what the player was told and believes.
+  void watch();
+
+  void due() { node_.due(); }
+  /// The player's key that was due at simulated `instant` [s].
+  void press(double instant);
+  /// Bytes of another peer's stream, cut anywhere. Throws peer::ProtocolError for what no peer says.
+  void hear(peer::PeerNumber from, rti::Bytes bytes);
+  /// What is to be sent to `to`; the caller takes it.
+  std::vector<std::uint8_t>& outbox(peer::PeerNumber to) { return outboxes_[to]; }
+  /// Takes a sample of what the player believes now.
+  void sample() { witness_->sample(clock_.simulated_s()); }
+
+  game::PeerNode& node() { return node_; }
+  const game::PeerNode& node() const { return node_; }
+  const Probe& probe() const { return probe_; }
+  /// Measured windows of which all was known here, and those of them that were before the next one's end.
+  std::uint64_t windows_known() const { return known_; }
+  std::uint64_t windows_on_time() const { return on_time_; }
+  /// Of a watched one.
+  const game::PlayerEvidence& evidence() const { return witness_->evidence(); }
+
+ private:
+  void note_commit();
+
+  const RunClock& clock_;
+  Measurements& measurements_;
+  double rate_hz_;
+  std::vector<game::FrameReader> readers_;            ///< by peer
+  std::vector<std::vector<std::uint8_t>> outboxes_;   ///< likewise
+  Probe probe_;
+  game::PeerNode node_;
+  std::optional<game::PlayerWitness> witness_;
+  std::uint64_t known_ = 0, on_time_ = 0;
+};
+
+}  // namespace rink::loadgen

@@ -1,0 +1,42 @@
+// Reads runs.jsonl back: what a campaign that was cut short had already measured.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loadgen/measure/run_record.h"
+
+namespace rink::loadgen {
+
+/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a `complaint` that names the key, if it is something else; keys that
+/// a record does not have are passed over.
+std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint);
+
+/// Sixteen hexadecimal digits that change with the experiment's text, its scene's file and its recorded keys (FNV-1a).
+std::string identity_of(const Experiment& experiment);
+
+/// The first line of a journal: under which conditions all its runs were made.
+struct JournalHead {
+  std::string experiment;  ///< see `identity_of`
+  std::string commit;      ///< of the program, with a mark if it had been changed since
+  std::vector<std::pair<std::string, std::string>> provenance;
+};
+
+nlohmann::ordered_json to_json(const JournalHead& head);
+
+/// A journal as found.
+struct Journal {
+  std::optional<JournalHead> head;  ///< absent in files that start with a run
+  std::vector<RunRecord> runs;
+  std::size_t whole_bytes = 0;  ///< length of the file up to the end of its last whole line
+  bool is_truncated = false;    ///< something follows that: the line at which the writer was killed
+};
+
+/// Reads the journal at `file`. Throws OutputError, which names the line, if it cannot be read or a whole line is not what a journal holds.
+Journal read_journal(const std::filesystem::path& file);
+
+}  // namespace rink::loadgen

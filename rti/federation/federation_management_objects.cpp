@@ -1,0 +1,190 @@
+// The objects of the management object model: registered while somebody subscribes to them, told when asked, when due and when their state changes.
+#include "rti/federation/federation_management_objects.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "rti/federation/federation_time.h"
+#include "rti/management/management_values.h"
+
+namespace rink::rti {
+
+bool FederationExecution::Parts::ManagementObjects::is_heard(const Parts& parts) {
+  const auto heard = [&parts](ObjectClassHandle each) { return each && !parts.relevance_.of_others(no_federate, each.value).heard.is_empty(); };
+  return heard(parts.management_.federation) || heard(parts.management_.federate);
+}
+
+FederationExecution::Parts::ManagementObjects::ManagementObjects(Parts& parts)
+    : parts_(parts), federation_class_(parts.management_.federation), federate_class_(parts.management_.federate), slot_(parts.take_federate_slot()) {
+  parts_.federates_[slot_] = {};
+  parts_.federates_[slot_].block = parts_.take_block();
+}
+
+bool FederationExecution::Parts::ManagementObjects::owns(ObjectSlot object) const { return parts_.objects_[object].owner == slot_; }
+
+FederationExecution::Parts::ManagementObjects::Told& FederationExecution::Parts::ManagementObjects::told_of(std::uint32_t slot) {
+  if (slot >= federates_.size()) federates_.resize(slot + 1);
+  return federates_[slot];
+}
+
+void FederationExecution::Parts::ManagementObjects::subscribed(std::uint32_t slot) {
+  const bool was_heard = std::exchange(is_heard_, is_heard(parts_));
+  if (is_heard_ && !was_heard) begin();
+  if (!is_heard_ && was_heard) end();
+  if (!is_heard_ || !parts_.federates_[slot].is_joined) return;
+  const auto hears = [&](ObjectClassHandle each) { return !parts_.interest_.subscribed_anywhere(slot, static_cast<std::uint16_t>(each.value)).heard.is_empty(); };
+  if (!hears(federation_class_) && !hears(federate_class_)) return;
+  federation_.is_due = true;
+  for (Told& each : federates_) each.is_due = static_cast<bool>(each.object);
+}
+
+void FederationExecution::Parts::ManagementObjects::begin() {
+  add(federation_, federation_class_);
+  for (std::uint32_t slot = 0; slot < parts_.federates_.size(); ++slot)
+    if (parts_.federates_[slot].is_joined) add(told_of(slot), federate_class_);
+}
+
+void FederationExecution::Parts::ManagementObjects::end() {
+  remove(federation_);
+  for (Told& each : federates_) remove(each);
+}
+
+void FederationExecution::Parts::ManagementObjects::add(Told& told, ObjectClassHandle object_class) {
+  Federate& self = parts_.federates_[slot_];
+  if (self.objects_registered == object_block) {  // those who come and go have used up all handles of the block
+    parts_.objects_.close_block(self.block);
+    self.block = parts_.take_block();
+    self.objects_registered = 0;
+  }
+  told = {};
+  told.object = {self.block * object_block + self.objects_registered++};
+  told.is_due = true;
+  parts_.interest_.object_registered(parts_.objects_.insert(told.object, slot_, static_cast<std::uint16_t>(object_class.value), {}));
+  if (&told != &federation_) slots_[told.object.value] = static_cast<std::uint32_t>(&told - federates_.data());
+}
+
+void FederationExecution::Parts::ManagementObjects::remove(Told& told) {
+  if (told.object) parts_.delete_object(parts_.objects_.find(told.object));
+  slots_.erase(told.object.value);
+  told = {};
+}
+
+void FederationExecution::Parts::ManagementObjects::joined(std::uint32_t slot) {
+  if (!is_heard_) return;
+  add(told_of(slot), federate_class_);
+  federation_.is_due = true;
+}
+
+void FederationExecution::Parts::ManagementObjects::left(std::uint32_t slot) {
+  if (!is_heard_) return;
+  remove(told_of(slot));
+  federation_.is_due = true;
+}
+
+void FederationExecution::Parts::ManagementObjects::ask(ObjectSlot object, AttributeSet attributes) {
+  const auto slot = slots_.find(parts_.objects_[object].handle.value);
+  Told& told = slot == slots_.end() ? federation_ : federates_[slot->second];
+  if (told.object != parts_.objects_[object].handle) return;
+  told.asked = told.asked | (attributes & parts_.fom_.attributes(ObjectClassHandle{parts_.objects_[object].object_class}));
+}
+
+void FederationExecution::Parts::ManagementObjects::tell() {
+  if (!is_heard_) return;
+  has_counted_ = false;
+  if (federation_.is_due || !federation_.asked.is_empty()) tell_federation();
+  for (std::uint32_t slot = 0; slot < federates_.size(); ++slot) {
+    Told& told = federates_[slot];
+    if (!told.object) continue;
+    const double period = parts_.federates_[slot].report_period;
+    const bool is_time = period > 0.0 && parts_.now_ >= told.due_at;
+    if (is_time) told.due_at = parts_.now_ + period;
+    if (is_time || told.is_due || !told.asked.is_empty() || told.state != state_of(slot)) tell_federate(slot, told);
+  }
+}
+
+unsigned FederationExecution::Parts::ManagementObjects::state_of(std::uint32_t slot) const {
+  if (!parts_.time_) return 0;
+  const TimeManagement& management = parts_.time_->management();
+  return (management.is_constrained(slot) ? 1u : 0u) | (management.is_regulating(slot) ? 2u : 0u);
+}
+
+void FederationExecution::Parts::ManagementObjects::begin_values(ObjectClassHandle object_class) {
+  values_.clear();
+  const ObjectClassHandle manager = parts_.fom_.at(object_class).parent;
+  ends_.assign(parts_.fom_.at(manager).attributes.size(), 0);  // what a model gives its root is not ours to tell
+}
+
+template <class Write>
+void FederationExecution::Parts::ManagementObjects::value(Write write) {
+  write(ManagementWriter(values_));
+  ends_.push_back(values_.size());
+}
+
+/// In the order of the class's attributes (management_classes.cpp).
+void FederationExecution::Parts::ManagementObjects::tell_federation() {
+  std::vector<std::uint32_t> joined;
+  for (const Federate& each : parts_.federates_)
+    if (each.is_joined) joined.push_back(each.handle.value);
+  begin_values(federation_class_);
+  value([&](ManagementWriter to) { to.text(parts_.settings_.federation); });
+  value([&](ManagementWriter to) { to.handles(joined); });
+  value([&](ManagementWriter to) { to.text(rti_version()); });
+  value([&](ManagementWriter to) { to.text("HLAstandardMIM"); });
+  value([&](ManagementWriter to) { to.text(parts_.fom_.name()); });
+  value([&](ManagementWriter to) { to.text("HLAfloat64Time"); });
+  value([&](ManagementWriter to) { to.count(parts_.is_auto_providing_ ? 1 : 0); });
+  update(federation_);
+}
+
+void FederationExecution::Parts::ManagementObjects::tell_federate(std::uint32_t slot, Told& told) {
+  if (!std::exchange(has_counted_, true)) deletable_ = parts_.count_deletable();
+  const Federate& federate = parts_.federates_[slot];
+  told.state = state_of(slot);
+  const bool is_constrained = (told.state & 1u) != 0, is_regulating = (told.state & 2u) != 0;
+  const TimeManagement* time = parts_.time_ ? &parts_.time_->management() : nullptr;
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  begin_values(federate_class_);
+  value([&](ManagementWriter to) { to.handle(federate.handle.value); });
+  value([&](ManagementWriter to) { to.text(federate.name); });
+  value([&](ManagementWriter to) { to.text(federate.type); });
+  value([&](ManagementWriter to) { to.text(rti_version()); });
+  value([&](ManagementWriter to) { to.count(is_constrained ? 1 : 0); });
+  value([&](ManagementWriter to) { to.count(is_regulating ? 1 : 0); });
+  value([&](ManagementWriter to) { to.count(1); });  // ActiveFederate: nothing is saved or restored here
+  value([&](ManagementWriter to) { to.count(federate.is_advancing ? 1 : 0); });
+  value([&](ManagementWriter to) { to.time(time != nullptr && told.state != 0 ? time->time(slot) : 0.0); });
+  value([&](ManagementWriter to) { to.time(is_regulating ? federate.lookahead : 0.0); });
+  value([&](ManagementWriter to) { to.time(time != nullptr ? time->galt(slot) : unbounded); });
+  value([&](ManagementWriter to) { to.time(time != nullptr ? time->lits(slot) : unbounded); });
+  for (const std::uint64_t count : {federate.counts.reflections_received, federate.counts.updates_sent, federate.counts.interactions_received, federate.counts.interactions_sent,
+                                    std::uint64_t{deletable_[slot]}, federate.objects_deleted, federate.objects_removed, std::uint64_t{federate.objects_registered}, federate.objects_discovered})
+    value([&](ManagementWriter to) { to.count(count); });
+  update(told);
+}
+
+void FederationExecution::Parts::ManagementObjects::update(Told& told) {
+  const ObjectSlot slot = parts_.objects_.find(told.object);
+  const Object& object = parts_.objects_[slot];
+  changed_.clear();
+  AttributeSet set;
+  for (std::uint32_t k = 0; k < ends_.size(); ++k) {
+    const std::size_t from = k == 0 ? 0 : ends_[k - 1];
+    const Bytes now = Bytes(values_).subspan(from, ends_[k] - from);
+    if (now.empty()) continue;
+    before_.clear();
+    const AttributeSet one{AttributeHandle{k}};
+    if (object.valued.contains({k})) parts_.objects_.append(slot, one, before_);
+    if (!told.asked.contains({k}) && std::ranges::equal(before_, now)) continue;
+    set = set | one;
+    changed_.insert(changed_.end(), now.begin(), now.end());
+  }
+  told.asked = {};
+  told.is_due = false;
+  if (set.is_empty()) return;
+  parts_.objects_.store(slot, set, changed_);
+  parts_.buffering_->append(slot_, slot, object, set, Stamp{}, changed_);
+  ++parts_.counters_.management_updates;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,206 @@
+// Who is connected, who has joined, who waits for whom.
+#include <algorithm>
+
+#include "rti/buffering/newest_state.h"
+#include "rti/distribution/interest.h"
+#include "rti/federation/federation_management_objects.h"
+#include "rti/federation/federation_time.h"
+#include "rti/fom/fom_digest.h"
+#include "rti/groups/member_lists.h"
+#include "rti/refusal_words.h"
+#include "rti/wire/fom_messages.h"
+
+namespace rink::rti {
+
+namespace {
+
+std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services, const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
+                                                  std::unique_ptr<im::Filter> filter) {
+  if (services.data_distribution) return services.data_distribution(fom, objects, ownership, std::move(filter));
+  return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
+}
+
+std::unique_ptr<GroupCommunication> groups_of(const FederationServices& services) {
+  if (services.group_communication) return services.group_communication();
+  return std::make_unique<MemberLists>();
+}
+
+std::unique_ptr<Buffering> buffering_of(const FederationServices& services) {
+  if (services.buffering) return services.buffering();
+  return std::make_unique<NewestState>();
+}
+
+}  // namespace
+
+FederationExecution::Parts::Parts(const Fom& fom, const FederationSettings& settings, const FederationServices& services, std::unique_ptr<im::Filter> filter)
+    : fom_(fom),
+      settings_(settings),
+      make_time_management_(services.time_management),
+      objects_(fom),
+      ownership_(fom, objects_),
+      distribution_(distribution_of(services, fom, objects_, ownership_, std::move(filter))),
+      interest_(*distribution_),
+      buffering_(buffering_of(services)),
+      baselines_(fom, settings.keyframe_period),
+      relevance_(fom.object_classes().size() + fom.interaction_classes().size()),
+      groups_(groups_of(services)),
+      management_(fom),
+      is_auto_providing_(fom.switches().auto_provide) {
+  list_best_effort();
+}
+
+void FederationExecution::Parts::connect(ConnectionId connection) {
+  if (connection >= connections_.size()) connections_.resize(connection + 1);
+  connections_[connection] = {};
+  connections_[connection].phase = Phase::connected;
+  connections_[connection].last_heard = now_;
+}
+
+void FederationExecution::Parts::disconnect(ConnectionId connection, std::string_view) {
+  if (connection >= connections_.size()) return;
+  if (connections_[connection].phase == Phase::joined) remove_federate(connections_[connection].federate, ResignReason::lost);
+  connections_[connection] = {};
+  for (std::vector<Farewell>* words : {&answers_, &farewells_}) std::erase_if(*words, [connection](const Farewell& each) { return each.connection == connection; });
+}
+
+void FederationExecution::Parts::advance_clock(double now) {
+  now_ = now;
+  for (ConnectionId id = 0; id < connections_.size(); ++id) {
+    Connection& connection = connections_[id];
+    if (connection.phase == Phase::unknown) continue;
+    if (connection.has_spoken) connection.last_heard = now;
+    connection.has_spoken = false;
+    if (now - connection.last_heard > settings_.patience.lost_after_s) expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
+  }
+}
+
+void FederationExecution::Parts::expel(ConnectionId connection, Violation violation, ResignReason reason, std::string_view why) {
+  ++counters_.drops[static_cast<std::size_t>(violation)];
+  // A stranger who breaks a rule gets no answer: it may be another program altogether.
+  const bool was_joined = connections_[connection].phase == Phase::joined;
+  if (was_joined) remove_federate(connections_[connection].federate, reason);
+  connections_[connection] = {};
+  farewells_.push_back({connection, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::join(ConnectionId connection, Reader& reader) {
+  JoinMessage message;
+  if (!exchange(reader, message)) return Violation::malformed;
+  if (message.version != protocol_version)
+    return refuse(connection, Refusal::wrong_version, refused_version(message.version, protocol_version)), std::nullopt;
+  if (message.fom_hash != fom_.hash())
+    return refuse(connection, Refusal::wrong_fom, refused_fom(message.fom_hash, fom_.hash())), std::nullopt;
+  if (message.federation != settings_.federation) return refuse(connection, Refusal::wrong_federation), std::nullopt;
+  if (message.name.empty()) return refuse(connection, Refusal::bad_name), std::nullopt;
+  if (!settings_.members.empty() && std::ranges::find(settings_.members, message.name) == settings_.members.end()) return refuse(connection, Refusal::not_listed), std::nullopt;
+  if (names_.contains(std::string(message.name))) return refuse(connection, Refusal::name_taken), std::nullopt;
+  const bool is_full = federate_count_ >= settings_.federate_max || (free_blocks_.empty() && next_block_ >= object_block_max);
+  if (is_full) return refuse(connection, Refusal::federation_full), std::nullopt;
+  admit(connection, message);
+  return std::nullopt;
+}
+
+void FederationExecution::Parts::refuse(ConnectionId connection, Refusal refusal, const std::string& why) {
+  expel(connection, Violation::refused, ResignReason::misbehaved, why);
+  std::vector<std::byte>& bytes = farewells_.back().bytes;
+  if (refusal == Refusal::wrong_fom) bytes = framed_digest();
+  const std::vector<std::byte> refused = framed(RefusedMessage{static_cast<std::uint8_t>(refusal), why});
+  bytes.insert(bytes.end(), refused.begin(), refused.end());
+}
+
+/// The federate finds out from the digest where its own model differs; nothing of a model too large for one.
+std::vector<std::byte> FederationExecution::Parts::framed_digest() const {
+  const std::vector<FomDigestEntry> entries = digest(fom_);
+  if (entries.size() > FomDigestMessage::count_max) return {};
+  return framed(FomDigestMessage{static_cast<std::uint16_t>(entries.size()), std::as_bytes(std::span(entries))});
+}
+
+/// Nothing if it has left, or there was none of that handle.
+std::optional<std::uint32_t> FederationExecution::Parts::joined_slot(FederateHandle federate) const {
+  if (federate.value >= slot_of_handle_.size()) return std::nullopt;
+  const std::uint32_t slot = slot_of_handle_[federate.value];
+  return slot < federates_.size() && federates_[slot].is_joined && federates_[slot].handle == federate ? std::optional(slot) : std::nullopt;
+}
+
+std::uint32_t FederationExecution::Parts::take_federate_slot() {
+  if (free_federates_.empty()) {
+    federates_.emplace_back();
+    return static_cast<std::uint32_t>(federates_.size() - 1);
+  }
+  const std::uint32_t slot = free_federates_.back();
+  free_federates_.pop_back();
+  return slot;
+}
+
+std::uint32_t FederationExecution::Parts::take_block() {
+  if (free_blocks_.empty()) return next_block_++;
+  const std::uint32_t block = free_blocks_.back();
+  free_blocks_.pop_back();
+  return block;
+}
+
+void FederationExecution::Parts::admit(ConnectionId connection, const JoinMessage& message) {
+  const std::uint32_t slot = take_federate_slot();
+  Federate& federate = federates_[slot] = {};
+  federate.is_joined = true;
+  federate.connection = connection;
+  federate.handle = {next_handle_++};
+  federate.block = take_block();
+  federate.name = message.name;
+  federate.type = message.type;
+  federate.published.resize(fom_.object_classes().size());
+  federate.published_interactions.resize(fom_.interaction_classes().size());
+  federate.subscribed_interactions.resize(fom_.interaction_classes().size());
+  federate.told_relevance.resize(relevance_.row_count());
+  federate.last_said = now_;
+  federate.resign_action = fom_.switches().automatic_resign_action;
+  slot_of_handle_.push_back(slot);
+  names_.emplace(federate.name, slot);
+  interest_.add_federate(slot);
+  connections_[connection].phase = Phase::joined;
+  connections_[connection].federate = slot;
+  ++federate_count_;
+  ++counters_.joins;
+  say(federate.control, JoinedMessage{federate.handle.value, federate.block});
+  for (Federate& other : federates_)
+    if (other.is_watching) say(other.control, FederateJoinedMessage{federate.handle.value, federate.name, federate.type});
+  join_points(slot);
+  if (management_objects_) management_objects_->joined(slot);
+}
+
+void FederationExecution::Parts::remove_federate(std::uint32_t slot, ResignReason reason) {
+  Federate& federate = federates_[slot];
+  leave_objects(slot);
+  interest_.remove_federate(slot);
+  forget_update_requests(slot);
+  buffering_->remove_federate(slot);
+  baselines_.forget(slot);
+  if (federate.further_block) free_blocks_.push_back(*federate.further_block);
+  if (federate.objects_registered == 0) free_blocks_.push_back(federate.block);
+  else objects_.close_block(federate.block);  // its handles have been seen
+  names_.erase(federate.name);
+  federate.is_joined = federate.is_watching = false;
+  subscribed(slot);
+  if (management_objects_) management_objects_->left(slot);
+  groups_->remove_federate(slot);
+  leave_names(slot);
+  leave_points(slot);
+  for (Federate& other : federates_)
+    if (other.is_watching)
+      say(other.tail, FederateResignedMessage{federate.handle.value, static_cast<std::uint8_t>(reason), federate.name, federate.type});
+  --federate_count_;
+  ++counters_.resigns;
+  leave_time(slot);
+  federate = {};
+  free_federates_.push_back(slot);
+}
+
+FederationExecution::Parts::Outcome FederationExecution::Parts::watch(Federate& federate) {
+  if (federate.is_watching) return std::nullopt;
+  federate.is_watching = true;
+  for (const Federate& other : federates_)
+    if (other.is_joined) say(federate.control, FederateJoinedMessage{other.handle.value, other.name, other.type});
+  return std::nullopt;
+}
+
+}  // namespace rink::rti

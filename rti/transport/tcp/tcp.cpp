@@ -1,0 +1,293 @@
+// TCP connections: how they come about, wait and end.
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "rti/transport/tcp/kernel_counters.h"
+#include "rti/transport/tcp/tcp_core.h"
+
+namespace rink::rti {
+
+namespace {
+
+constexpr std::size_t events_per_poll = 4096;   ///< connections opened, closed or read in one poll, more where many are accepted
+constexpr std::size_t accepted_per_event = 64;
+/// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows to megabytes for one who doesn't read, where nobody can put newer state in their place.
+constexpr int unsent_max = 256 * 1024;
+constexpr std::uint64_t pause_mark = ~0ull;
+constexpr std::size_t counters_kept = 1024;  ///< of closed connections
+
+void add_to(TransportCounters& sum, const TransportCounters& one) {
+  sum.bytes_sent += one.bytes_sent;
+  sum.bytes_received += one.bytes_received;
+  sum.writes += one.writes;
+  sum.segments_sent += one.segments_sent;
+  sum.acknowledgements_sent += one.acknowledgements_sent;
+  sum.queued_bytes += one.queued_bytes;
+  *sum.kernel_bytes_sent += one.kernel_bytes_sent.value_or(one.bytes_sent);
+  *sum.kernel_bytes_received += one.kernel_bytes_received.value_or(one.bytes_received);
+  *sum.kernel_segments_sent += one.kernel_segments_sent.value_or(one.segments_sent);
+}
+
+asio::error_code last_error() { return {errno, asio::system_category()}; }
+
+using asio::ip::tcp;
+
+[[noreturn]] void fail(const asio::error_code& error, const std::string& what) {
+  using Kind = TransportError::Kind;
+  Kind kind = Kind::failed;
+  if (error == asio::error::address_in_use) kind = Kind::in_use;
+  else if (error == asio::error::access_denied) kind = Kind::no_permission;
+  else if (error == asio::error::no_descriptors) kind = Kind::too_many_files;
+  else if (error == asio::error::host_not_found || error == asio::error::no_data || error == asio::error::service_not_found ||
+           error.value() == EADDRNOTAVAIL) kind = Kind::no_such_address;
+  throw TransportError(kind, what + ": " + error.message());
+}
+
+/// "address:port", with brackets around IPv6.
+std::string place(const std::string& address, std::uint16_t port) {
+  return (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + std::to_string(port);
+}
+
+}  // namespace
+
+TcpTransport::Core::Core(const TcpSettings& settings)
+    : settings_(settings), pause_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)), read_buffer_(settings.read_buffer) {
+  readiness_.watch(pause_.number(), pause_mark, false);
+}
+
+tcp::endpoint TcpTransport::Core::resolve(const std::string& address, std::uint16_t port) {
+  asio::error_code error;
+  asio::io_context context;
+  tcp::resolver resolver(context);
+  const auto found = resolver.resolve(address, std::to_string(port), error);
+  if (error) fail(error, "no such address " + place(address, port));
+  return found.begin()->endpoint();
+}
+
+std::uint16_t TcpTransport::Core::listen(const std::string& address, std::uint16_t port) {
+  const tcp::endpoint endpoint = resolve(address, port);
+  asio::io_context context;
+  tcp::acceptor acceptor(context);
+  asio::error_code error;
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);  // past connections in TIME_WAIT don't hold the port
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(4096, error);
+  if (!error) acceptor.native_non_blocking(true, error);
+  if (error) fail(error, "can't listen at " + place(address, port));
+  const std::uint16_t bound = acceptor.local_endpoint().port();
+  listening_.emplace_back(acceptor.release());
+  readiness_.watch(listening_.back().number(), listener_mark + listening_.size() - 1, false);
+  return bound;
+}
+
+ConnectionId TcpTransport::Core::connect(const std::string& address, std::uint16_t port) {
+  const tcp::endpoint endpoint = resolve(address, port);
+  File file(::socket(endpoint.protocol().family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, IPPROTO_TCP));
+  const asio::error_code no_socket = last_error();
+  if (!file) fail(no_socket, "can't connect to " + place(address, port));
+  Peer& peer = add(std::move(file));
+  peer.place = place(address, port);
+  int result = 0;
+  do result = ::connect(peer.file.number(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
+  while (result < 0 && errno == EINTR);
+  const asio::error_code error = last_error();
+  // Watched only from here on: a socket that nobody has connected yet would be told as ended.
+  if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN && error.value() != EALREADY)
+    end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+  else
+    readiness_.watch(peer.file.number(), peer.id, true);
+  return peer.id;
+}
+
+TcpTransport::Core::Peer& TcpTransport::Core::add(File file) {
+  peers_.push_back(std::make_unique<Peer>(static_cast<ConnectionId>(peers_.size())));
+  peers_.back()->file = std::move(file);
+  return *peers_.back();
+}
+
+void TcpTransport::Core::accept(std::size_t listening) {
+  for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
+    File file(::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (!file && (errno == EMFILE || errno == ENFILE)) return accept_later();
+    if (!file) return;  // none is left, or one that gave up before we came
+    Peer& peer = add(std::move(file));
+    readiness_.watch(peer.file.number(), peer.id, false);
+    opened(peer);
+  }
+}
+
+void TcpTransport::Core::accept_later() {
+  // The waiting connection would wake us at once and for ever: raise the limit, or let somebody leave first.
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+    return;
+  }
+  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, false, false);
+  const itimerspec pause{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
+  timerfd_settime(pause_.number(), 0, &pause, nullptr);
+}
+
+void TcpTransport::Core::accept_again() {
+  std::uint64_t expirations = 0;
+  if (::read(pause_.number(), &expirations, sizeof expirations) != sizeof expirations) return;
+  for (std::size_t i = 0; i < listening_.size(); ++i) readiness_.change(listening_[i].number(), listener_mark + i, true, false);
+}
+
+void TcpTransport::Core::finish_connecting(Peer& peer) {
+  int failure = 0;
+  socklen_t size = sizeof failure;
+  ::getsockopt(peer.file.number(), SOL_SOCKET, SO_ERROR, &failure, &size);
+  const asio::error_code error(failure, asio::system_category());
+  if (error) return end(peer, close_reason_of(error), "can't connect to " + peer.place + ": " + error.message());
+  readiness_.change(peer.file.number(), peer.id, true, false);
+  opened(peer);
+}
+
+void TcpTransport::Core::opened(Peer& peer) {
+  const int yes = 1;
+  ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  ::setsockopt(peer.file.number(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_max, sizeof unsent_max);
+  peer.is_open = true;
+  ++open_count_;
+  newest_open_ = peer.id;
+  const ConnectionId id = peer.id;
+  if (!peer.queue.empty()) await_room(peer), drain(peer);  // sent before it was open
+  listener_->on_open(id);
+}
+
+void TcpTransport::Core::end(Peer& peer, CloseReason reason, const std::string& detail) {
+  peer.counters = counters(peer.id);
+  peer.counters.queued_bytes = 0;
+  if (peer.is_open) --open_count_;
+  peer.is_leaving = true;
+  const linger at_once{.l_onoff = 1, .l_linger = 0};
+  if (reason == CloseReason::queue_full) ::setsockopt(peer.file.number(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);  // its unread bytes leave the kernel too
+  peer.file.close();
+  peer.queue = {};
+  peer.queue_from = 0;
+  ended_.push_back({peer.id, reason, detail});
+}
+
+void TcpTransport::Core::report_closed() {
+  while (!ended_.empty()) {
+    reporting_.swap(ended_);
+    for (const Closed& each : reporting_) {
+      add_to(closed_, peers_[each.connection]->counters);
+      last_counters_.emplace_back(each.connection, peers_[each.connection]->counters);
+      if (last_counters_.size() > counters_kept) last_counters_.pop_front();
+      peers_[each.connection].reset();
+      listener_->on_close(each.connection, each.reason, each.detail);
+    }
+    reporting_.clear();
+  }
+}
+
+void TcpTransport::Core::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
+  listener_ = &listener;
+  if (read_only_peer(longest_wait)) {
+    report_closed();
+    listener_ = nullptr;
+    return;
+  }
+  // One question per poll: each system call here is one more in every round trip. What comes while we handle what had come is the next poll's.
+  readiness_.ask(ended_.empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
+  take_what_came();
+  listener_ = nullptr;
+}
+
+/// Who spins with one connection asks that, not the kernel's list of what is ready: one system call less in every round trip. True if there is no more to ask.
+bool TcpTransport::Core::read_only_peer(std::chrono::nanoseconds longest_wait) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
+  const auto spin = std::min(settings_.spin, longest_wait);
+  if (open_count_ != 1 || !ended_.empty() || readiness_.has_left() || (longest_wait.count() > 0 && spin.count() <= 0)) return false;
+  Peer* peer = find(newest_open_);
+  if (peer == nullptr || !peer->is_open || peer->is_leaving || peer->is_writing) return false;
+  const std::uint64_t before = bytes_taken_;
+  const Clock::time_point until = spin.count() > 0 ? Clock::now() + spin : Clock::time_point();
+  do {
+    if (++reads_ % reads_per_look == 0) return false;
+    read(*peer);
+    if (bytes_taken_ != before || peer->is_leaving) return true;
+  } while (spin.count() > 0 && Clock::now() < until);
+  return longest_wait.count() <= 0;
+}
+
+void TcpTransport::Core::take_what_came() {
+  // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost a server three ticks in four. What is left waits in
+  // the kernel, and the next poll begins with the peers that this one did not reach.
+  const std::uint64_t before = bytes_taken_;
+  for (std::size_t taken = 0; taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {
+    const auto event = readiness_.next();
+    if (!event) break;
+    take(*event);
+  }
+  report_closed();
+}
+
+void TcpTransport::Core::take(const Readiness::Event& event) {
+  if (event.number == pause_mark) return accept_again();
+  if (event.number >= listener_mark) return accept(static_cast<std::size_t>(event.number - listener_mark));
+  const auto id = static_cast<ConnectionId>(event.number);
+  Peer* peer = find(id);
+  if (peer == nullptr || peer->is_leaving) return;
+  if (!peer->is_open) return finish_connecting(*peer);
+  if (event.is_writable && peer->is_writing) drain(*peer);
+  if (event.is_readable && !peer->is_leaving) read(*peer);
+}
+
+TransportCounters TcpTransport::Core::counters(ConnectionId connection) const {
+  const Peer* peer = find(connection);
+  if (peer == nullptr) {
+    const auto last = std::ranges::find(last_counters_, connection, &std::pair<ConnectionId, TransportCounters>::first);
+    return last != last_counters_.end() ? last->second : TransportCounters{};
+  }
+  TransportCounters counters = peer->counters;
+  if (peer->is_leaving) return counters;
+  counters.queued_bytes = peer->queue.size() - peer->queue_from;
+  if (!peer->is_open) return counters;
+  if (const auto kernel = kernel_counters(peer->file.number())) {
+    counters.kernel_bytes_sent = kernel->bytes_acknowledged;
+    counters.kernel_bytes_received = kernel->bytes_received;
+    counters.kernel_segments_sent = kernel->data_segments_sent;
+    counters.acknowledgements_sent = kernel->segments_sent - std::min(kernel->segments_sent, kernel->data_segments_sent);
+  }
+  return counters;
+}
+
+TcpTransport::TcpTransport(const TcpSettings& settings) : core_(std::make_unique<Core>(settings)) {}
+TcpTransport::~TcpTransport() = default;
+std::uint16_t TcpTransport::listen(const std::string& address, std::uint16_t port) { return core_->listen(address, port); }
+ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t port) { return core_->connect(address, port); }
+void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) { core_->poll(longest_wait, listener); }
+void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) { core_->send(connection, parts); }
+void TcpTransport::close(ConnectionId connection) { core_->close(connection); }
+TransportCounters TcpTransport::Core::totals() const {
+  TransportCounters sum = closed_;
+  for (const auto& peer : peers_)
+    if (peer) add_to(sum, counters(peer->id));
+  return sum;
+}
+
+std::size_t TcpTransport::queued_bytes(ConnectionId connection) const { return core_->queued_bytes(connection); }
+TransportCounters TcpTransport::counters(ConnectionId connection) const { return core_->counters(connection); }
+TransportCounters TcpTransport::totals() const { return core_->totals(); }
+
+int TcpTransport::wait_file() const { return core_->wait_file(); }
+int TcpTransport::file(ConnectionId connection) const { return core_->file(connection); }
+int TcpTransport::Core::file(ConnectionId connection) const {
+  const Peer* peer = find(connection);
+  return peer != nullptr && peer->is_open && !peer->is_leaving ? peer->file.number() : -1;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,94 @@
+// The inside of the UDP transport: its ways for datagrams and how they open; for its own sources only.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "rti/transport/udp/datagram_socket.h"
+#include "rti/transport/udp/udp.h"
+
+namespace rink::rti {
+
+class UdpTransport::Core final : private TransportListener {
+ public:
+  explicit Core(const UdpSettings& settings);
+
+  std::uint16_t listen(const std::string& address, std::uint16_t port);
+  ConnectionId connect(const std::string& address, std::uint16_t port);
+  void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener);
+  void send(ConnectionId connection, std::span<const Bytes> parts);
+  void close(ConnectionId connection);
+  std::size_t queued_bytes(ConnectionId connection) const;
+  TransportCounters counters(ConnectionId connection) const;
+  TransportCounters totals() const;
+  UdpCounters udp_counters() const;
+  std::size_t datagram_max(ConnectionId connection) const;
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams);
+  void push() { sender_.push(); }
+
+ private:
+  /// What the first byte after a datagram's key says.
+  enum class Kind : std::uint8_t { data, hello, welcome, confirm, open };
+  static constexpr std::size_t payload_max = 1200, prefix_size = 9;
+  static constexpr std::size_t magic_size = 4, greeting_size = magic_size + 2 + 8 + 8;
+
+  /// One connection's datagrams. Of a server's, `undecided` until the client has asked for datagrams, which is the first thing that it says.
+  struct Way {
+    enum class Role : std::uint8_t { undecided, none, server, client };
+    enum class State : std::uint8_t { closed, hello, confirm, open };
+    Role role = Role::undecided;
+    State state = State::closed;
+    int tries = 0;
+    std::array<std::byte, greeting_size> head{};  ///< of the stream, as far as it has come
+    std::size_t head_size = 0;
+    std::uint64_t up_key = 0, down_key = 0, nonce = 0;
+    SocketAddress address;                        ///< the other end's
+    std::vector<std::vector<std::byte>> held;     ///< writes of a server that must not come before its greeting
+    std::size_t held_bytes = 0;
+    File file;                                    ///< a client's own socket, connected
+  };
+  /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one connection.
+  struct Tally {
+    std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0, bytes_sent = 0, bytes_received = 0;
+  };
+
+  void on_open(ConnectionId connection) override;
+  void on_bytes(ConnectionId connection, Bytes bytes) override;
+  void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
+
+  Way* find(ConnectionId connection) const { return connection < ways_.size() ? ways_[connection].get() : nullptr; }
+  Way& add(ConnectionId connection);
+  Bytes take_head(ConnectionId connection, Bytes bytes);
+  void let_go(ConnectionId connection, Way& way);
+  void greet(ConnectionId connection, Way& way);
+  void open_socket(ConnectionId connection, Way& way);
+  void forward(ConnectionId connection, Bytes bytes);
+  void take_what_came();
+  void take_from_client(const SocketAddress& source, Bytes datagram);
+  void take_from_server(ConnectionId connection, Way& way, Bytes datagram);
+  void tell(const Way& way, Kind kind, std::uint64_t key, std::uint64_t nonce, std::size_t size);
+  void ask(const Way& way);
+  void ask_again();
+  void set_timer();
+  void take_data(ConnectionId connection, Bytes datagram);
+
+  UdpSettings settings_;
+  TcpTransport tcp_;
+  Readiness readiness_;
+  File timer_;
+  File server_;                                              ///< the socket of all that connect to us
+  std::uint16_t server_port_ = 0;
+  std::vector<std::unique_ptr<Way>> ways_;                   ///< by connection; null once closed
+  std::vector<Tally> tallies_;                               ///< by connection
+  std::unordered_map<std::uint64_t, ConnectionId> by_key_;   ///< by what clients' datagrams begin with
+  std::vector<ConnectionId> asking_;                         ///< clients' ways that are not open yet
+  DatagramSender sender_;
+  DatagramReader reader_;
+  UdpCounters counters_;
+  TransportListener* listener_ = nullptr;                    ///< while polling
+  bool has_told_ = false;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,209 @@
+// Relevance by an expression: against the shapes that say the same, against brute force, and as sets of what its parts say.
+#include "loadgen/measure/truth/filter_relevance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "game/control/game.h"
+#include "game/net/evidence.h"
+#include "game/players/random_plan.h"
+#include "loadgen/measure/truth/replay.h"
+#include "loadgen/measure/truth/truth.h"
+#include "tests/temporary_folder.h"
+
+namespace rink::loadgen {
+namespace {
+
+using Entities = std::vector<std::uint32_t>;
+
+constexpr double reach = 1.5, played_s = 1.0;
+constexpr std::uint32_t players = 12;
+
+game::ServerEvidence crowd(std::uint64_t seed) {
+  game::ServerEvidence evidence;
+  evidence.choice.scene = "crowd";
+  evidence.choice.seed = seed;
+  evidence.choice.bats = players;
+  evidence.rate_hz = 30.0;
+  evidence.keys = game::random_plan(seed, players, played_s);
+  // One goes, one goes and comes back as another body.
+  evidence.keys.push_back({.time = 0.1, .player = 3, .kind = game::InputKind::leave});
+  evidence.keys.push_back({.time = 0.1, .player = 5, .kind = game::InputKind::leave});
+  evidence.keys.push_back({.time = 0.305, .player = 5, .kind = game::InputKind::enter});
+  std::ranges::stable_sort(evidence.keys, {}, &game::InputEvent::time);
+  return evidence;
+}
+
+/// What is relevant to each player at each of some instants.
+std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const RelevanceArea& area) {
+  Replay replay(evidence, area);
+  std::vector<Entities> all;
+  std::vector<Relevant> found;
+  for (const double now : {0.05, 0.3, 0.31, 0.9}) {
+    replay.advance(now);
+    replay.look_around();
+    for (std::uint32_t player = 0; player < players; ++player) {
+      if (!replay.bat_of(player)) continue;
+      replay.find(*replay.bat_of(player), found);
+      all.emplace_back();
+      for (const Relevant& each : found) all.back().push_back(each.entity);
+    }
+  }
+  return all;
+}
+std::vector<Entities> relevant_by(const game::ServerEvidence& evidence, const std::string& expression) {
+  return relevant_by(evidence, {.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = expression});
+}
+
+TEST(FilterRelevance, RegionFindsWhomTheRectangleFinds) {
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const game::ServerEvidence evidence = crowd(seed);
+    const auto found = relevant_by(evidence, "region");
+    EXPECT_EQ(found, relevant_by(evidence, {RelevanceArea::Shape::square, reach})) << "seed " << seed;
+    EXPECT_TRUE(std::ranges::any_of(found, [](const Entities& each) { return each.size() > 3; })) << "or the test shows nothing";
+  }
+}
+
+/// With half sides h, the nearest point of the box is (max(|x| - h_x, 0), max(|y| - h_y, 0)) off.
+TEST(FilterRelevance, AuraFindsWhoseBoxComesWithinTheDiscAndHoldsTheDiscOfCentres) {
+  const game::ServerEvidence evidence = crowd(3);
+  const auto found = relevant_by(evidence, "aura"), by_centre = relevant_by(evidence, {RelevanceArea::Shape::disc, reach});
+  std::vector<Entities> expected;
+  Replay replay(evidence, {});
+  for (const double now : {0.05, 0.3, 0.31, 0.9}) {
+    replay.advance(now);
+    replay.look_around();
+    for (std::uint32_t player = 0; player < players; ++player) {
+      if (!replay.bat_of(player)) continue;
+      const std::uint32_t own = *replay.bat_of(player);
+      expected.emplace_back();
+      for (std::uint32_t entity = 0; entity < 1000; ++entity) {
+        if (!replay.is_there(entity) || entity == own) continue;
+        const Vector2 off = ((replay.centre(entity) - replay.centre(own)).cwiseAbs() - replay.half_extent(entity)).cwiseMax(0.0);
+        if (off.norm() <= reach) expected.back().push_back(entity);
+      }
+    }
+  }
+  EXPECT_EQ(found, expected);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(std::ranges::includes(found[i], by_centre[i]));
+}
+
+TEST(FilterRelevance, ACompositionFindsTheSetThatItsPartsFindTogether) {
+  const game::ServerEvidence evidence = crowd(4);
+  const auto everybody = relevant_by(evidence, "none");
+  for (const auto& [a, b] : {std::pair{"region", "aura"}, {"grid(cell_size=0.7)", "team"}, {"hex", "always"}}) {
+    const auto in_a = relevant_by(evidence, a), in_b = relevant_by(evidence, b);
+    const std::string first = a, second = b;
+    const auto both = relevant_by(evidence, first + " and " + second), either = relevant_by(evidence, first + " or " + second), without = relevant_by(evidence, first + " and not " + second),
+               outside = relevant_by(evidence, "not " + first);
+    for (std::size_t i = 0; i < in_a.size(); ++i) {
+      Entities expected;
+      std::ranges::set_intersection(in_a[i], in_b[i], std::back_inserter(expected));
+      EXPECT_EQ(both[i], expected) << a << b;
+      expected.clear();
+      std::ranges::set_union(in_a[i], in_b[i], std::back_inserter(expected));
+      EXPECT_EQ(either[i], expected) << a << b;
+      expected.clear();
+      std::ranges::set_difference(in_a[i], in_b[i], std::back_inserter(expected));
+      EXPECT_EQ(without[i], expected) << a << b;
+      expected.clear();
+      std::ranges::set_difference(everybody[i], in_a[i], std::back_inserter(expected));
+      EXPECT_EQ(outside[i], expected) << a << b;
+    }
+  }
+}
+
+TEST(FilterRelevance, WhoIsAlwaysRelevantIsOfTheKindsThatAreSaid) {
+  const game::ServerEvidence evidence = crowd(5);
+  RelevanceArea area{.shape = RelevanceArea::Shape::filter, .reach = reach, .expression = "always"};
+  area.always_by_role.add(physics::BodyKind::bat);
+  std::vector<std::size_t> bats, expected;
+  for (const Entities& found : relevant_by(evidence, area)) bats.push_back(found.size() + 1);
+  for (const std::size_t there : {players, players - 2, players - 1, players - 1}) expected.insert(expected.end(), there, there);
+  EXPECT_EQ(bats, expected) << "the own bat is in no set, and who has gone is in none";
+}
+
+/// Pushed to the right during the warm-up, then at rest to the last bit: after 2 s of a drag of 20/s some 1e-18 m are left to go. Two pucks lie as far to its right and to its left.
+class LookingBat : public testing::Test {
+ protected:
+  static constexpr std::uint32_t bat = 0, right = 1, left = 2;
+  static constexpr double until_s = 4.2;
+
+  void SetUp() override {
+    const std::string file = (folder_ / "looking.toml").string();
+    std::ofstream(file) << R"(
+[field]
+length = 20.0
+width = 20.0
+material = "ice"
+[materials]
+names = ["ice"]
+restitution = 1.0
+[drag]
+pucks = 0.0
+bats = 20.0
+[[bat]]
+position = [10.0, 10.0]
+half_extent = [0.1, 0.1]
+material = "ice"
+[[puck]]
+position = [10.8, 10.0]
+radius = 0.1
+material = "ice"
+[[puck]]
+position = [9.2, 10.0]
+radius = 0.1
+material = "ice"
+)";
+    server_.choice.scene = file;
+    server_.clients = 1;
+    server_.rate_hz = 10.0;
+    server_.from_s = 3.9, server_.until_s = server_.end_s = until_s;
+    for (std::uint32_t body = 0; body < 3; ++body) server_.objects.push_back({100 + body, body});
+    server_.keys = {{.time = 0.5, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::right}, {.time = 0.6, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::right}};
+    bots_.clients = 1;
+    bots_.until_s = until_s;
+    bots_.bots.push_back({100 + bat, {{-1.0, 100 + bat, true}}});
+  }
+  TruthFigures judged() {
+    game::Game game(game::chosen_scene(server_.choice));
+    for (const game::InputEvent& key : server_.keys) game.submit(key);
+    game.advance(server_.end_s);
+    server_.state_hash = game.hash();
+    return truth_of(server_, bots_, {.shape = RelevanceArea::Shape::filter, .reach = 1.5, .expression = "cone"});
+  }
+  void decide(double instant_s) {
+    const std::size_t first = server_.in_scope.size();
+    server_.in_scope.insert(server_.in_scope.end(), {100 + bat, 100 + right});
+    server_.decisions.push_back({instant_s, 0, first, server_.in_scope.size()});
+  }
+
+  test::TemporaryFolder folder_{"looking"};
+  game::ServerEvidence server_;
+  BotsEvidence bots_;
+};
+
+TEST_F(LookingBat, SeesWhereItLastWentBeforeTheMeasuredSpanBegan) {
+  decide(4.0);
+  const TruthFigures truth = judged();
+  EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 1.0) << "the puck on the right is seen";
+  EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 1.0) << "and nothing else";
+}
+
+TEST_F(LookingBat, SeesWhereItsKeysPushIt) {
+  server_.keys.push_back({.time = 3.95, .player = 0, .kind = game::InputKind::key_down, .key = game::Key::left});
+  decide(3.94), decide(3.96);
+  const TruthFigures truth = judged();
+  EXPECT_DOUBLE_EQ(truth.filter_precision.value_or(-1.0), 0.5);
+  EXPECT_DOUBLE_EQ(truth.filter_recall.value_or(-1.0), 0.5);
+}
+
+}  // namespace
+}  // namespace rink::loadgen

@@ -1,0 +1,111 @@
+// What a peer may do with the channels of a bundle, and what it loses its trunk for.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "rti/transport/bundle.h"
+#include "tests/rti/rig.h"
+#include "tests/rti/transport/scripted_transport.h"
+
+namespace rink::rti::testing {
+namespace {
+
+constexpr ConnectionId trunk = 3;
+
+struct ChannelEar final : TransportListener {
+  std::vector<ConnectionId> opened;
+  std::map<ConnectionId, std::string> heard, closed;
+  void on_open(ConnectionId id) override { opened.push_back(id); }
+  void on_bytes(ConnectionId id, Bytes bytes) override { heard[id] += text_of(bytes); }
+  void on_close(ConnectionId id, CloseReason, const std::string& detail) override {
+    closed[id] = detail;
+  }
+};
+
+struct BundleScene {
+  ScriptedTransport carrier;
+  BundledTransport bundle{carrier};
+  ChannelEar ear;
+  BundleScene() {
+    carrier.opens(trunk);
+    poll();
+  }
+  void poll() { bundle.poll({}, ear); }
+  void records(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& heads) {
+    std::vector<std::byte> bytes;
+    for (const auto& [channel, size] : heads) {
+      const auto head = values_of(channel, size);
+      bytes.insert(bytes.end(), head.begin(), head.end());
+    }
+    carrier.says(trunk, bytes);
+    poll();
+  }
+  bool has_lost_its_trunk() const { return carrier.closed == std::vector{trunk}; }
+};
+
+TEST(Bundle, APeerMayOpenSoManyChannelsAndLosesItsTrunkForOneMore) {
+  BundleScene scene;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  for (std::uint32_t number = 0; number < BundledTransport::channel_max; ++number)
+    all.emplace_back(number, BundledTransport::opens);
+  scene.records(all);
+  EXPECT_EQ(scene.ear.opened.size(), BundledTransport::channel_max);
+  EXPECT_FALSE(scene.has_lost_its_trunk());
+  scene.records({{BundledTransport::channel_max, BundledTransport::opens}});
+  EXPECT_EQ(scene.ear.opened.size(), BundledTransport::channel_max);
+  EXPECT_TRUE(scene.has_lost_its_trunk());
+  EXPECT_EQ(scene.ear.closed.size(), BundledTransport::channel_max) << "and all channels with it";
+}
+
+TEST(Bundle, ClosedChannelsCountForTheyAreNeverUsedAgain) {
+  BundleScene scene;
+  for (std::uint32_t number = 0; number < BundledTransport::channel_max; number += 1024) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> some;
+    for (std::uint32_t k = number; k < number + 1024; ++k)
+      some.emplace_back(k, BundledTransport::opens), some.emplace_back(k, BundledTransport::closes);
+    scene.records(some);
+  }
+  EXPECT_EQ(scene.ear.closed.size(), BundledTransport::channel_max);
+  EXPECT_FALSE(scene.has_lost_its_trunk());
+  scene.records({{BundledTransport::channel_max, BundledTransport::opens}});
+  EXPECT_TRUE(scene.has_lost_its_trunk());
+}
+
+TEST(Bundle, ARecordThatIsNoneCostsTheTrunk) {
+  using Heads = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  const auto costs_it = [](const Heads& heads) {
+    BundleScene scene;
+    scene.records(heads);
+    return scene.has_lost_its_trunk();
+  };
+  constexpr std::uint32_t opens = BundledTransport::opens, closes = BundledTransport::closes;
+  EXPECT_FALSE(costs_it({{0, opens}, {1, opens}, {0, closes}, {0, closes}}));
+  EXPECT_TRUE(costs_it({{1, opens}})) << "a gap";
+  EXPECT_TRUE(costs_it({{0, opens}, {0, opens}})) << "in use";
+  EXPECT_TRUE(costs_it({{0, 5}})) << "bytes for a channel that was never opened";
+  EXPECT_TRUE(costs_it({{0, opens}, {1, closes}}));
+}
+
+TEST(Bundle, ChannelsOfOurOwnTrunkAreOpenedByUsAlone) {
+  BundleScene scene;
+  const ConnectionId ours = scene.bundle.connect(trunk);
+  scene.poll();
+  EXPECT_EQ(scene.ear.opened, std::vector{ours});
+  scene.records({{1, BundledTransport::opens}});
+  EXPECT_TRUE(scene.has_lost_its_trunk());
+}
+
+TEST(Bundle, WhatIsGatheredGoesAtOnceWhenItIsTooMuch) {
+  BundleScene scene;
+  const ConnectionId ours = scene.bundle.connect(trunk);
+  const std::vector<std::byte> half(BundledTransport::gathered_max / 2);
+  const Bytes part = half;
+  scene.bundle.send(ours, std::span(&part, 1));
+  EXPECT_TRUE(scene.carrier.sent.empty());
+  scene.bundle.send(ours, std::span(&part, 1));
+  EXPECT_EQ(scene.carrier.sent[trunk].size(), 8 + 2 * (8 + half.size()))
+      << "the opening, and two records with their heads";
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
